@@ -1,0 +1,83 @@
+//! What the window asks of the simulation thread. Commands are queued and carried out in order, between two steps.
+
+use crate::engine::{Body, Constraint, DVec2, Id, Kind, Method, Tuning, Wall};
+
+/// A request to the simulation thread.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Runs or pauses.
+    Run(bool),
+    /// Takes one step (and pauses).
+    StepOnce,
+    /// Back to the start of the scene; edits since then are given up (and can be undone).
+    Restart,
+    /// Wanted speed: simulated seconds a second, 0.01 … 10.
+    Speed(f64),
+    /// Opens a shipped scene by name, or a scene file by path. On failure the running scene stays and a fault is shown.
+    Open(String),
+    /// Writes the world as it stands to a scene file.
+    SaveAs(std::path::PathBuf),
+    /// Changes how the world is stepped.
+    Method(Method),
+    Gravity(DVec2),
+    Drag(f64),
+    Tuning(Tuning),
+    /// Takes hold of a body at a point of the world; replaces any hold.
+    Grab { body: Id, at: DVec2 },
+    /// Moves the hold's target [m].
+    MoveGrip(DVec2),
+    /// Lets go; the body keeps its velocity.
+    Release,
+    /// An edit, undone as one.
+    Edit(Edit),
+    Undo,
+    Redo,
+    /// Forgets the shown fault.
+    DismissFault,
+    /// Ends the thread.
+    Quit,
+}
+
+/// A change of the scene while it runs.
+#[derive(Clone, Debug)]
+pub enum Edit {
+    /// Adds something at a point [m].
+    Spawn(Spawn, DVec2),
+    /// Removes bodies (with what hangs on them), constraints and walls.
+    Delete(Vec<Id>),
+    /// Removes every rod, spring, rope and pin that the line between two points crosses.
+    Cut(DVec2, DVec2),
+    /// Fixes bodies where they are, or frees them.
+    Pin(Vec<Id>, bool),
+    SetBody(Id, Body),
+    SetKind(Id, Kind),
+    SetWall(Id, Wall),
+    /// Joins two bodies, or a body and a point.
+    Join(Constraint),
+    AddWall(Wall),
+}
+
+/// What the palette offers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spawn {
+    Particle,
+    Disc,
+    /// Two particles and a rod.
+    Rod,
+    /// Two particles and a spring.
+    Spring,
+    Rope,
+    Cloth,
+    Pile,
+}
+
+impl Spawn {
+    /// All of them, in the order of the palette and of the number keys 1 … 7.
+    pub const ALL: [Spawn; 7] =
+        [Spawn::Particle, Spawn::Disc, Spawn::Rod, Spawn::Spring, Spawn::Rope, Spawn::Cloth, Spawn::Pile];
+
+    /// The name shown to a user.
+    pub fn name(self) -> &'static str {
+        ["Particle", "Disc", "Rod", "Spring", "Rope", "Cloth", "Pile"][self as usize]
+    }
+}

@@ -1,0 +1,53 @@
+//! What the simulation thread publishes: one immutable picture of everything that the window shows.
+
+use crate::engine::{DVec2, Method, StepReport, World};
+use crate::measure::Measures;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// The scene that is open.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneInfo {
+    /// Shipped name ("bridge") or path.
+    pub name: String,
+    pub title: String,
+    pub about: String,
+    /// Rectangle that the scene asks to show: centre and height [m].
+    pub view: Option<(DVec2, f64)>,
+    /// Counts openings and restarts, so that the window knows when to fit its view anew.
+    pub opened: u64,
+}
+
+/// Speed as wanted and as achieved, in simulated seconds a second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Speed {
+    pub wanted: f64,
+    /// Averaged over about half a second.
+    pub achieved: f64,
+}
+
+/// One state of the simulation, whole. The window reads it and never waits for the next.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Counts frames.
+    pub sequence: u64,
+    /// When it was published.
+    pub published: Instant,
+    pub scene: Arc<SceneInfo>,
+    pub world: World,
+    /// Positions and angles one step before, by body index, for interpolation; empty if there is no such state (after an edit).
+    pub previous_position: Vec<DVec2>,
+    pub previous_angle: Vec<f64>,
+    pub method: Method,
+    pub report: StepReport,
+    pub measures: Measures,
+    /// What the plan decided, in one sentence.
+    pub plan: String,
+    pub running: bool,
+    pub speed: Speed,
+    /// What went wrong last, and how to mend it, until dismissed or resolved.
+    pub fault: Option<String>,
+    /// Names of the edits that undo and redo would act on.
+    pub undo: Option<String>,
+    pub redo: Option<String>,
+}

@@ -1,0 +1,113 @@
+//! How a user wants a world to be stepped.
+
+use super::error::{EngineError, check};
+use serde::{Deserialize, Serialize};
+
+/// How positions and velocities are carried through a substep. The order is that of smooth, unconstrained motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Integrator {
+    /// Both from the old state: order 1, gains energy.
+    ExplicitEuler,
+    /// Velocity first, then position with the new velocity: order 1, symplectic.
+    #[default]
+    SemiImplicitEuler,
+    /// Half a drift, a kick, half a drift: order 2, symplectic.
+    PositionVerlet,
+    /// Half a kick, a drift, half a kick: order 2, symplectic; two velocity solves.
+    VelocityVerlet,
+}
+
+impl Integrator {
+    /// All of them, in the order in which they are listed to a user.
+    pub const ALL: [Integrator; 4] = [
+        Integrator::ExplicitEuler,
+        Integrator::SemiImplicitEuler,
+        Integrator::PositionVerlet,
+        Integrator::VelocityVerlet,
+    ];
+
+    /// The name shown to a user.
+    pub fn name(self) -> &'static str {
+        match self {
+            Integrator::ExplicitEuler => "Explicit Euler",
+            Integrator::SemiImplicitEuler => "Semi-implicit Euler",
+            Integrator::PositionVerlet => "Position Verlet",
+            Integrator::VelocityVerlet => "Velocity Verlet",
+        }
+    }
+}
+
+/// How constraints and contacts are solved within a substep.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Solver {
+    /// Gauss-Seidel projection of the predicted positions (position-based dynamics of 2006).
+    Projection,
+    /// Projected Gauss-Seidel on the velocities, with Baumgarte's position feedback.
+    #[default]
+    Pgs,
+}
+
+impl Solver {
+    /// All of them, in the order in which they are listed to a user.
+    pub const ALL: [Solver; 2] = [Solver::Projection, Solver::Pgs];
+
+    /// The name shown to a user.
+    pub fn name(self) -> &'static str {
+        match self {
+            Solver::Projection => "Gauss-Seidel projection",
+            Solver::Pgs => "PGS on velocities",
+        }
+    }
+}
+
+/// How a world is to be stepped.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Method {
+    /// Steps per second of simulated time [Hz]; a step lasts 1/hz.
+    pub hz: f64,
+    /// Substeps a step.
+    pub substeps: u32,
+    /// Solver sweeps a substep.
+    pub iterations: u32,
+    pub integrator: Integrator,
+    pub solver: Solver,
+    /// Start each solve from the last multipliers (PGS only; a projection has none to start from).
+    pub warm_start: bool,
+    /// Part of the position error that PGS feeds back in a substep, 0 … 1 (Baumgarte 1972).
+    pub baumgarte: f64,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Method {
+            hz: 60.0,
+            substeps: 4,
+            iterations: 10,
+            integrator: Integrator::default(),
+            solver: Solver::default(),
+            warm_start: true,
+            baumgarte: 0.2,
+        }
+    }
+}
+
+impl Method {
+    /// Length of a step [s].
+    pub fn step_seconds(&self) -> f64 {
+        1.0 / self.hz
+    }
+
+    /// Length of a substep [s].
+    pub fn substep_seconds(&self) -> f64 {
+        1.0 / (self.hz * f64::from(self.substeps))
+    }
+
+    /// Refuses a rate outside 1 … 100,000 Hz, no or more than 1,000 substeps, no or more than 100,000 iterations.
+    pub fn validate(&self) -> Result<(), EngineError> {
+        check("hz", self.hz, [1.0, 1e5], "between 1 and 100000 steps per second")?;
+        check("substeps", f64::from(self.substeps), [1.0, 1e3], "between 1 and 1000")?;
+        check("iterations", f64::from(self.iterations), [1.0, 1e5], "between 1 and 100000")?;
+        check("baumgarte", self.baumgarte, [0.0, 1.0], "between 0 and 1")
+    }
+}

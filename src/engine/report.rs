@@ -1,0 +1,76 @@
+//! What a step tells about itself.
+
+use super::id::Id;
+
+/// The stages of a substep, in order, as in the loop of `step.rs`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    Forces,
+    Predict,
+    Detect,
+    Assemble,
+    Solve,
+    Update,
+}
+
+impl Stage {
+    /// All of them, in order.
+    pub const ALL: [Stage; 6] =
+        [Stage::Forces, Stage::Predict, Stage::Detect, Stage::Assemble, Stage::Solve, Stage::Update];
+
+    /// The name shown to a user.
+    pub fn name(self) -> &'static str {
+        ["Forces", "Prediction", "Detection", "Assembly", "Solve", "Update"][self as usize]
+    }
+}
+
+/// Where and how a run left the range of numbers in which it means anything.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Divergence {
+    /// The body that shows it.
+    pub body: Id,
+    /// "position", "velocity", "angle" or "angular velocity".
+    pub quantity: &'static str,
+    /// Its value then (may be NaN or infinite).
+    pub value: f64,
+    /// Substep of the step in which it was seen, from 0.
+    pub substep: u32,
+    /// The most likely cause in this scene, and a setting to try.
+    pub advice: String,
+}
+
+impl std::fmt::Display for Divergence {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the run diverged: {} of body {} became {:e}. {}", self.quantity, self.body, self.value, self.advice)
+    }
+}
+
+/// Everything one step did. Counts of rows, contacts and iterations are those of the last substep unless said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Number of the step just taken (the world's tick after it).
+    pub tick: u64,
+    pub bodies: usize,
+    pub constraints: usize,
+    /// Scalar rows in the solver, contacts' two each included.
+    pub rows: usize,
+    /// Contacts that carry a force.
+    pub contacts: usize,
+    /// Pairs that the broad phase handed to the narrow phase, summed over the substeps.
+    pub candidates: usize,
+    /// Times that the broad phase was built anew, summed over the substeps.
+    pub broad_phase_builds: u32,
+    /// Impacts with restitution, summed over the substeps.
+    pub impacts: usize,
+    pub substeps: u32,
+    /// Sweeps of the solver, summed over the substeps.
+    pub iterations: u32,
+    /// Largest change of a row's velocity (PGS, [m/s]) or of a constraint's value (projection, [m]) in the last sweep.
+    pub residual: f64,
+    /// Time a stage took [µs], in the order of [`Stage::ALL`], summed over the substeps; zero if the stepper has no clock.
+    pub stage_us: [f64; 6],
+    /// Time of the whole step [µs]; zero if the stepper has no clock.
+    pub step_us: f64,
+    /// Set if the step was taken back: the world then is as it was before it.
+    pub divergence: Option<Divergence>,
+}

@@ -1,0 +1,490 @@
+//! The state that a step reads and writes.
+
+use super::body::{Bodies, Body, Motion, NO_ROTOR};
+use super::constraint::{Anchor, Constraint, Constraints, Grip, Kind, WORLD};
+use super::error::{EngineError, check, check_point};
+use super::id::{Id, find};
+use super::shape::Wall;
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+/// What a contact is with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Touching {
+    /// Dense index of a body (larger than the contact's own).
+    Body(u32),
+    /// Dense index of a wall.
+    Wall(u32),
+}
+
+/// A pair that touches or is about to: picture, measure and the solver's memory at once.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// Dense index of the first body.
+    pub a: u32,
+    pub b: Touching,
+    /// Where they touch, between the two surfaces [m].
+    pub point: DVec2,
+    /// Unit normal from `b` towards `a`.
+    pub normal: DVec2,
+    /// Distance of the surfaces when last detected [m]; negative is a penetration.
+    pub gap: f64,
+    /// Force along the normal [N], ≥ 0.
+    pub normal_force: f64,
+    /// Force on `a` along the tangent (the normal turned by +90°) [N].
+    pub tangent_force: f64,
+}
+
+/// Values that stand in for those of every body, wall and spring at once; what the sandbox's world sliders change.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tuning {
+    /// Restitution of every contact, if set.
+    pub restitution: Option<f64>,
+    /// Friction of every contact, if set.
+    pub friction: Option<f64>,
+    /// Factor on the stiffness of every spring.
+    pub stiffness: f64,
+}
+
+impl Default for Tuning {
+    fn default() -> Self {
+        Tuning { restitution: None, friction: None, stiffness: 1.0 }
+    }
+}
+
+/// Everything that the next step depends on. A clone steps on to the same bits.
+///
+/// Arrays are read freely; they are changed through the methods, which keep them consistent and refuse values that no
+/// step could read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct World {
+    /// Steps taken.
+    pub(crate) tick: u64,
+    /// Simulated time [s].
+    pub(crate) time: f64,
+    pub(crate) gravity: DVec2,
+    /// Rate at which free motion dies away [1/s]: v' = −drag · v.
+    pub(crate) drag: f64,
+    pub(crate) tuning: Tuning,
+    pub(crate) bodies: Bodies,
+    pub(crate) constraints: Constraints,
+    pub(crate) wall_ids: Vec<Id>,
+    pub(crate) walls: Vec<Wall>,
+    pub(crate) grip: Option<Grip>,
+    /// Contacts of the last substep, ordered by (a, b).
+    pub(crate) contacts: Vec<Contact>,
+    /// Grows with every edit that a plan depends on.
+    pub(crate) revision: u64,
+    pub(crate) next_id: u64,
+}
+
+impl Default for World {
+    fn default() -> Self {
+        World {
+            tick: 0,
+            time: 0.0,
+            gravity: DVec2::new(0.0, -9.81),
+            drag: 0.0,
+            tuning: Tuning::default(),
+            bodies: Bodies::default(),
+            constraints: Constraints::default(),
+            wall_ids: Vec::new(),
+            walls: Vec::new(),
+            grip: None,
+            contacts: Vec::new(),
+            revision: 0,
+            next_id: 1,
+        }
+    }
+}
+
+/// Reading.
+impl World {
+    /// An empty world under (0, −9.81) m/s².
+    pub fn new() -> World {
+        World::default()
+    }
+
+    /// Steps taken.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// Simulated time [s].
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Gravity [m/s²].
+    pub fn gravity(&self) -> DVec2 {
+        self.gravity
+    }
+
+    /// Rate at which free motion dies away [1/s].
+    pub fn drag(&self) -> f64 {
+        self.drag
+    }
+
+    /// The values that stand in for every contact's and spring's own.
+    pub fn tuning(&self) -> Tuning {
+        self.tuning
+    }
+
+    pub fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    pub fn constraints(&self) -> &Constraints {
+        &self.constraints
+    }
+
+    /// Walls, in the order of [`World::wall_ids`].
+    pub fn walls(&self) -> &[Wall] {
+        &self.walls
+    }
+
+    /// Ids of the walls, ascending.
+    pub fn wall_ids(&self) -> &[Id] {
+        &self.wall_ids
+    }
+
+    pub fn grip(&self) -> Option<&Grip> {
+        self.grip.as_ref()
+    }
+
+    /// Contacts of the last substep, those about to touch included, ordered by (a, b).
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+
+    /// Body `id`, whole.
+    pub fn body(&self, id: Id) -> Result<Body, EngineError> {
+        self.bodies.index_of(id).map(|index| self.bodies.get(index)).ok_or(EngineError::NoBody(id))
+    }
+
+    /// Constraint `id`, whole.
+    pub fn constraint(&self, id: Id) -> Result<Constraint, EngineError> {
+        let index = self.constraints.index_of(id).ok_or(EngineError::NoConstraint(id))?;
+        Ok(self.constraint_at(index))
+    }
+
+    /// Constraint at a dense index, whole.
+    pub fn constraint_at(&self, index: usize) -> Constraint {
+        let c = &self.constraints;
+        Constraint {
+            kind: c.kind[index],
+            a: self.anchor(c.a[index], c.at_a[index]),
+            b: self.anchor(c.b[index], c.at_b[index]),
+        }
+    }
+
+    /// Both ends of constraint `index` in the world [m].
+    pub fn ends(&self, index: usize) -> (DVec2, DVec2) {
+        let c = &self.constraints;
+        (self.world_point(c.a[index], c.at_a[index]), self.world_point(c.b[index], c.at_b[index]))
+    }
+
+    /// A point given in the axes of body `index`, in the world [m].
+    pub fn to_world(&self, index: usize, local: DVec2) -> DVec2 {
+        self.bodies.position[index] + self.arm(index, local)
+    }
+
+    /// A point of the world in the axes of body `index` [m]; (0, 0) for a particle, which has no axes.
+    pub fn to_local(&self, index: usize, point: DVec2) -> DVec2 {
+        match self.bodies.spin(index) {
+            Some(spin) => rotate(point - self.bodies.position[index], -spin.angle),
+            None => DVec2::ZERO,
+        }
+    }
+
+    /// A 64-bit FNV-1a hash over the bits of time, positions, velocities, rotations and multipliers: equal states, equal
+    /// hashes, on every machine and in every build.
+    pub fn hash(&self) -> u64 {
+        let mut hash = Fnv::new();
+        hash.add(self.time);
+        let spins = &self.bodies.rotors;
+        let vectors = [&self.bodies.position, &self.bodies.velocity, &self.constraints.force];
+        vectors.into_iter().flatten().for_each(|v| hash.add_vector(*v));
+        [&spins.angle, &spins.omega].into_iter().flatten().for_each(|value| hash.add(*value));
+        for contact in &self.contacts {
+            hash.add(contact.normal_force);
+            hash.add(contact.tangent_force);
+        }
+        hash.value
+    }
+
+    /// Distance of the two surfaces of a contact as they stand now [m]; negative is a penetration.
+    pub fn gap(&self, contact: &Contact) -> f64 {
+        let (a, position) = (contact.a as usize, &self.bodies.position);
+        let distance = match contact.b {
+            Touching::Body(b) => (position[a] - position[b as usize]).length() - self.bodies.radius[b as usize],
+            Touching::Wall(wall) => self.walls[wall as usize].shape.distance(position[a]).0,
+        };
+        distance - self.bodies.radius[a]
+    }
+
+    fn anchor(&self, body: u32, at: DVec2) -> Anchor {
+        if body == WORLD { Anchor::World(at) } else { Anchor::Body(self.bodies.id[body as usize], at) }
+    }
+
+    pub(crate) fn world_point(&self, body: u32, at: DVec2) -> DVec2 {
+        if body == WORLD { at } else { self.to_world(body as usize, at) }
+    }
+
+    /// Vector from the centre of body `index` to a point in its axes, in world axes.
+    pub(crate) fn arm(&self, index: usize, local: DVec2) -> DVec2 {
+        match self.bodies.spin(index) {
+            Some(spin) if local != DVec2::ZERO => rotate(local, spin.angle),
+            _ => DVec2::ZERO,
+        }
+    }
+}
+
+/// Changing. Every method that fails leaves the world as it was.
+impl World {
+    /// Sets gravity [m/s²].
+    pub fn set_gravity(&mut self, gravity: DVec2) -> Result<(), EngineError> {
+        check("gravity", gravity.length(), [0.0, 1e6], "finite and at most 1e6 m/s²")?;
+        self.gravity = gravity;
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// Sets the rate at which free motion dies away [1/s].
+    pub fn set_drag(&mut self, drag: f64) -> Result<(), EngineError> {
+        check("drag", drag, [0.0, 1e6], "between 0 and 1e6 1/s")?;
+        self.drag = drag;
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// Sets the values that stand in for every contact's and spring's own.
+    pub fn set_tuning(&mut self, tuning: Tuning) -> Result<(), EngineError> {
+        if let Some(restitution) = tuning.restitution {
+            check("restitution", restitution, [0.0, 1.0], "between 0 and 1")?;
+        }
+        if let Some(friction) = tuning.friction {
+            check("friction", friction, [0.0, 1e3], "between 0 and 1000")?;
+        }
+        check("stiffness factor", tuning.stiffness, [0.0, 1e9], "between 0 and 1e9")?;
+        self.tuning = tuning;
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// Adds a body and names it.
+    pub fn add_body(&mut self, body: &Body) -> Result<Id, EngineError> {
+        body.validate()?;
+        let id = self.take_id();
+        self.bodies.push(id, body);
+        Ok(id)
+    }
+
+    /// Replaces every property of a body, position and velocity included.
+    pub fn set_body(&mut self, id: Id, body: &Body) -> Result<(), EngineError> {
+        body.validate()?;
+        let index = self.bodies.index_of(id).ok_or(EngineError::NoBody(id))?;
+        let mut bodies = std::mem::take(&mut self.bodies);
+        let old: Vec<(Id, Body)> = bodies.iter().collect();
+        bodies.rebuild(old.into_iter().enumerate().map(|(i, (id, old))| (id, if i == index { *body } else { old })));
+        self.bodies = bodies;
+        if body.spin.is_none() {
+            self.flatten_anchors(index as u32);
+        }
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// Removes bodies with every constraint, contact and grip on them. Unknown ids are ignored. O(size of the world).
+    pub fn remove_bodies(&mut self, ids: &[Id]) {
+        let mut map = vec![WORLD; self.bodies.len()];
+        let mut kept = Vec::with_capacity(self.bodies.len());
+        for (index, (id, body)) in self.bodies.iter().enumerate() {
+            if !ids.contains(&id) {
+                map[index] = kept.len() as u32;
+                kept.push((id, body));
+            }
+        }
+        self.bodies.rebuild(kept.into_iter());
+        let stays = |end: u32| end == WORLD || map[end as usize] != WORLD;
+        let c = &self.constraints;
+        let keep: Vec<bool> = (0..c.len()).map(|i| stays(c.a[i]) && stays(c.b[i])).collect();
+        self.keep_constraints(&keep);
+        for end in self.constraints.a.iter_mut().chain(&mut self.constraints.b).filter(|end| **end != WORLD) {
+            *end = map[*end as usize];
+        }
+        self.contacts.retain_mut(|contact| renumber(contact, &map));
+        if self.grip.is_some_and(|grip| ids.contains(&grip.body)) {
+            self.grip = None;
+        }
+        self.revision += 1;
+    }
+
+    /// Adds a constraint and names it.
+    pub fn add_constraint(&mut self, constraint: &Constraint) -> Result<Id, EngineError> {
+        constraint.validate()?;
+        let (a, at_a) = self.resolve(&constraint.a)?;
+        let (b, at_b) = self.resolve(&constraint.b)?;
+        let id = self.take_id();
+        let c = &mut self.constraints;
+        c.id.push(id);
+        c.kind.push(constraint.kind);
+        c.a.push(a);
+        c.b.push(b);
+        c.at_a.push(at_a);
+        c.at_b.push(at_b);
+        c.force.push(DVec2::ZERO);
+        Ok(id)
+    }
+
+    /// Changes what a constraint asks for (its length, its stiffness, even its kind); its ends stay.
+    pub fn set_kind(&mut self, id: Id, kind: Kind) -> Result<(), EngineError> {
+        kind.validate()?;
+        let index = self.constraints.index_of(id).ok_or(EngineError::NoConstraint(id))?;
+        self.constraints.kind[index] = kind;
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// Removes constraints. Unknown ids are ignored.
+    pub fn remove_constraints(&mut self, ids: &[Id]) {
+        let keep: Vec<bool> = self.constraints.id.iter().map(|id| !ids.contains(id)).collect();
+        self.keep_constraints(&keep);
+        self.revision += 1;
+    }
+
+    /// Adds a wall and names it.
+    pub fn add_wall(&mut self, wall: &Wall) -> Result<Id, EngineError> {
+        wall.validate()?;
+        let id = self.take_id();
+        self.walls.push(*wall);
+        self.wall_ids.push(id);
+        Ok(id)
+    }
+
+    /// Replaces a wall.
+    pub fn set_wall(&mut self, id: Id, wall: &Wall) -> Result<(), EngineError> {
+        wall.validate()?;
+        let index = find(&self.wall_ids, id).ok_or(EngineError::NoWall(id))?;
+        self.walls[index] = *wall;
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// Removes walls. Unknown ids are ignored.
+    pub fn remove_walls(&mut self, ids: &[Id]) {
+        let keep: Vec<bool> = self.wall_ids.iter().map(|id| !ids.contains(id)).collect();
+        retain(&mut self.walls, &keep);
+        retain(&mut self.wall_ids, &keep);
+        self.contacts.retain(|contact| matches!(contact.b, Touching::Body(_)));
+        self.revision += 1;
+    }
+
+    /// Takes hold of a body, moves the hold, or (with `None`) lets go; the body keeps its velocity.
+    pub fn set_grip(&mut self, grip: Option<Grip>) -> Result<(), EngineError> {
+        if let Some(grip) = &grip {
+            self.bodies.index_of(grip.body).ok_or(EngineError::NoBody(grip.body))?;
+            check_point("grabbed point", grip.local)?;
+            check_point("target of the grip", grip.target)?;
+            check("frequency of the grip", grip.frequency, [1e-3, 1e4], "between 0.001 and 10000 Hz")?;
+            check("damping ratio of the grip", grip.damping_ratio, [0.0, 1e3], "between 0 and 1000")?;
+            check("largest force of the grip", grip.max_force, [0.0, 1e18], "between 0 and 1e18 N")?;
+        }
+        self.grip = grip;
+        Ok(())
+    }
+
+    fn take_id(&mut self) -> Id {
+        let id = Id(self.next_id);
+        self.next_id += 1;
+        self.revision += 1;
+        id
+    }
+
+    /// Dense index and local point of an anchor; a particle's anchor is its centre.
+    fn resolve(&self, anchor: &Anchor) -> Result<(u32, DVec2), EngineError> {
+        match *anchor {
+            Anchor::World(point) => Ok((WORLD, point)),
+            Anchor::Body(id, local) => {
+                let index = self.bodies.index_of(id).ok_or(EngineError::NoBody(id))?;
+                Ok((index as u32, if self.bodies.rotor[index] == NO_ROTOR { DVec2::ZERO } else { local }))
+            }
+        }
+    }
+
+    /// Moves every anchor on body `index` to its centre, for a body that stopped having axes.
+    fn flatten_anchors(&mut self, index: u32) {
+        let c = &mut self.constraints;
+        for i in 0..c.id.len() {
+            if c.a[i] == index {
+                c.at_a[i] = DVec2::ZERO;
+            }
+            if c.b[i] == index {
+                c.at_b[i] = DVec2::ZERO;
+            }
+        }
+        if let Some(grip) = self.grip.as_mut().filter(|grip| self.bodies.id[index as usize] == grip.body) {
+            grip.local = DVec2::ZERO;
+        }
+    }
+
+    fn keep_constraints(&mut self, keep: &[bool]) {
+        let c = &mut self.constraints;
+        retain(&mut c.id, keep);
+        retain(&mut c.kind, keep);
+        retain(&mut c.a, keep);
+        retain(&mut c.b, keep);
+        retain(&mut c.at_a, keep);
+        retain(&mut c.at_b, keep);
+        retain(&mut c.force, keep);
+    }
+
+    /// Whether body `index` is pushed by anything.
+    pub fn is_dynamic(&self, index: usize) -> bool {
+        self.bodies.motion[index] == Motion::Dynamic
+    }
+}
+
+/// `v` turned by `angle` [rad], with the same bits on every platform.
+pub(crate) fn rotate(v: DVec2, angle: f64) -> DVec2 {
+    let (sin, cos) = libm::sincos(angle);
+    DVec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
+}
+
+fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
+    let mut kept = keep.iter();
+    items.retain(|_| *kept.next().expect("one flag an item"));
+}
+
+/// Gives a contact its bodies' new indices; `false` if one of them is gone.
+fn renumber(contact: &mut Contact, map: &[u32]) -> bool {
+    contact.a = map[contact.a as usize];
+    if let Touching::Body(b) = &mut contact.b {
+        *b = map[*b as usize];
+        return contact.a != WORLD && *b != WORLD;
+    }
+    contact.a != WORLD
+}
+
+/// FNV-1a (Fowler, Noll, Vo), fed with the bits of doubles.
+struct Fnv {
+    value: u64,
+}
+
+impl Fnv {
+    fn new() -> Fnv {
+        Fnv { value: 0xcbf2_9ce4_8422_2325 }
+    }
+
+    fn add(&mut self, number: f64) {
+        for byte in number.to_bits().to_le_bytes() {
+            self.value = (self.value ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn add_vector(&mut self, v: DVec2) {
+        self.add(v.x);
+        self.add(v.y);
+    }
+}

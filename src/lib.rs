@@ -1,0 +1,14 @@
+//! Tautline: a sandbox for 2D physics with constraints. The rooms, each importing only from rooms further down the list:
+//!
+//! - `window` (binary's desktop shell): the winit loop that ties `ui`, `render` and `app` together
+//! - `ui`: egui panels and plots; `render`: wgpu pipelines, one per kind of mark
+//! - `app`: the simulation thread, commands, camera, tools, undo
+//! - [`measure`]: energy, momentum, violation, penetration
+//! - [`scene`]: the file format, its errors, its generators
+//! - [`engine`]: the physics; knows no window, file or clock
+
+#[cfg(feature = "desktop")]
+pub mod app;
+pub mod engine;
+pub mod measure;
+pub mod scene;
