@@ -5,13 +5,17 @@
 //! Everything is `f64`. No file, window, thread or clock is known here; a clock for the stage timings can be handed in.
 
 pub mod body;
+mod collide;
 pub mod constraint;
 pub mod error;
 pub mod id;
+mod integrate;
 pub mod method;
 pub mod plan;
 pub mod report;
 pub mod shape;
+mod solve;
+mod state;
 pub mod step;
 pub mod world;
 
@@ -21,6 +25,7 @@ pub use error::EngineError;
 pub use glam::DVec2;
 pub use id::Id;
 pub use method::{Integrator, Method, Solver};
+pub use plan::Plan;
 pub use report::{Divergence, Stage, StepReport};
 pub use shape::{Shape, Wall};
 pub use step::Stepper;

@@ -1,2 +1,172 @@
 //! What a world needs from a step: which stages, which springs are forces and which are rows.
 //! Derived from the world and the method, shown to the user, rebuilt only when one of them changed.
+
+use super::constraint::Kind;
+use super::constraint::form::{Form, Joint};
+use super::state::State;
+use super::world::Revision;
+use super::{Method, World};
+use std::fmt::Write;
+
+/// A spring is integrated as a force while (h ω)² stays below this; explicit methods lose stability at 4 (semi-implicit
+/// Euler, Verlet), and a quarter of it keeps their error and the effect of neighbouring springs moderate.
+const FORCE_LIMIT: f64 = 1.0;
+/// A damper is integrated as a force while h·c/m stays below this; explicit methods lose stability at 2.
+const DAMPER_LIMIT: f64 = 0.5;
+
+/// The decisions for one world under one method.
+#[derive(Debug, Default)]
+pub struct Plan {
+    /// Revision of the world and method that this was derived from; `None` before the first.
+    made_for: Option<(Revision, Method)>,
+    /// Some body turns: rotations are loaded and contacts have arms.
+    pub spin: bool,
+    /// Something can touch something: there is a broad phase, a narrow phase, a contact memory.
+    pub contacts: bool,
+    /// Some contact can bounce: there is an impact stage.
+    pub restitution: bool,
+    /// Some spring that is a force has a damper, so forces depend on velocities.
+    pub dashpots: bool,
+    /// Springs that the integrator resolves.
+    pub(crate) springs: Vec<Joint>,
+    /// Constraints for the solver.
+    pub(crate) joints: Vec<Joint>,
+    /// Scalar rows of `joints`.
+    pub(crate) rows: usize,
+    /// Pairs of bodies joined by a constraint, which never touch each other: ordered, smaller index first.
+    pub(crate) joined: Vec<(u32, u32)>,
+    sentence: String,
+}
+
+impl Plan {
+    /// Whether the plan still holds for this world and method.
+    pub(crate) fn fits(&self, world: &World, method: &Method) -> bool {
+        self.made_for.is_some_and(|(revision, made_for)| revision.same(world.revision) && made_for == *method)
+    }
+
+    /// Derives everything anew. O(bodies + constraints · log constraints).
+    pub(crate) fn derive(&mut self, world: &World, method: &Method) {
+        self.made_for = Some((world.revision, *method));
+        self.spin = world.bodies.spinning() > 0;
+        self.divide_constraints(world, method.substep_seconds());
+        self.find_contacts(world);
+        self.sentence = self.describe(world, method);
+    }
+
+    /// What was decided and why, in one sentence for the user.
+    pub fn sentence(&self) -> &str {
+        &self.sentence
+    }
+
+    /// Springs become forces where the substep `h` resolves them, rows where it does not; the rest are rows.
+    ///
+    /// The bound on a spring's frequency is Gershgorin's on M⁻¹K, with the stiffness of all springs at both ends.
+    fn divide_constraints(&mut self, world: &World, h: f64) {
+        let (bodies, constraints) = (&world.bodies, &world.constraints);
+        let mut load = vec![(0.0, 0.0); bodies.len() + 1];
+        let all: Vec<Joint> = (0..constraints.len())
+            .map(|i| Joint {
+                index: i as u32,
+                a: State::index(constraints.a[i], bodies.len()),
+                b: State::index(constraints.b[i], bodies.len()),
+                at_a: constraints.at_a[i],
+                at_b: constraints.at_b[i],
+                form: Form::of(&constraints.kind[i], world.tuning.stiffness),
+            })
+            .collect();
+        for joint in all.iter().filter(|joint| joint.form.stiffness.is_finite()) {
+            for end in [joint.a as usize, joint.b as usize] {
+                let w = bodies.inverse_mass.get(end).copied().unwrap_or(0.0) * self.leverage(world, end);
+                load[end].0 += w * joint.form.stiffness;
+                load[end].1 += w * joint.form.damping;
+            }
+        }
+        let resolved = |joint: &Joint| {
+            let (a, b) = (load[joint.a as usize], load[joint.b as usize]);
+            joint.form.stiffness.is_finite() && h * h * (a.0 + b.0) <= FORCE_LIMIT && h * (a.1 + b.1) <= DAMPER_LIMIT
+        };
+        let acts = |joint: &Joint| joint.form.stiffness > 0.0 || joint.form.damping > 0.0;
+        self.springs = all.iter().filter(|joint| resolved(joint) && acts(joint)).copied().collect();
+        self.joints = all.iter().filter(|joint| !resolved(joint) && can_act(joint, world)).copied().collect();
+        self.rows = self.joints.iter().map(|joint| joint.form.rows()).sum();
+        self.dashpots = self.springs.iter().any(|joint| joint.form.damping > 0.0);
+    }
+
+    /// Factor by which an anchor at the rim of a disc is easier to move than its centre: 1 + m r²/I = 3.
+    fn leverage(&self, world: &World, body: usize) -> f64 {
+        if body < world.bodies.len() && world.bodies.spin(body).is_some() { 3.0 } else { 1.0 }
+    }
+
+    fn find_contacts(&mut self, world: &World) {
+        let bodies = &world.bodies;
+        let can_touch = |i: &usize| bodies.collides[*i] && bodies.radius[*i] > 0.0;
+        let touching = (0..bodies.len()).filter(can_touch).count();
+        let movable = (0..bodies.len()).filter(can_touch).any(|i| bodies.inverse_mass[i] > 0.0);
+        self.contacts = movable && (touching >= 2 || !world.walls.is_empty());
+        self.restitution = self.contacts
+            && match world.tuning.restitution {
+                Some(restitution) => restitution > 0.0,
+                None => {
+                    (0..bodies.len()).filter(can_touch).any(|i| bodies.restitution[i] > 0.0)
+                        || world.walls.iter().any(|wall| wall.restitution > 0.0)
+                }
+            };
+        self.joined.clear();
+        if self.contacts {
+            let constraints = &world.constraints;
+            let pairs = constraints.a.iter().zip(&constraints.b).map(|(a, b)| (*a.min(b), *a.max(b)));
+            self.joined.extend(pairs.filter(|(_, larger)| (*larger as usize) < bodies.len()));
+            self.joined.sort_unstable();
+            self.joined.dedup();
+        }
+    }
+
+    fn describe(&self, world: &World, method: &Method) -> String {
+        let mut parts = Vec::new();
+        let counts = [
+            ("rod", count(world, |kind| matches!(kind, Kind::Rod { .. }))),
+            ("rope", count(world, |kind| matches!(kind, Kind::Rope { .. }))),
+            ("pin", count(world, |kind| matches!(kind, Kind::Pin))),
+        ];
+        for (name, number) in counts.into_iter().filter(|(_, number)| *number > 0) {
+            parts.push(plural(number, name));
+        }
+        let stiff = self.joints.iter().filter(|joint| joint.form.stiffness.is_finite()).count();
+        if stiff > 0 {
+            parts.push(format!("{} as rows (too stiff for the substep)", plural(stiff, "spring")));
+        }
+        if !self.springs.is_empty() {
+            parts.push(format!("{} as forces", plural(self.springs.len(), "spring")));
+        }
+        if parts.is_empty() {
+            parts.push("no constraints".to_string());
+        }
+        let mut sentence = parts.join(", ");
+        sentence.push_str(if self.spin { "; rotations" } else { "; particles only" });
+        sentence.push_str(match (self.contacts, self.restitution) {
+            (false, _) => ", nothing can touch: no broad phase",
+            (true, false) => ", contacts from a sorted grid",
+            (true, true) => ", contacts from a sorted grid, impacts with restitution",
+        });
+        let solver = match (self.rows, self.contacts) {
+            (0, false) => "nothing to solve".to_string(),
+            _ => format!("{}, {} rows", method.solver.name(), self.rows),
+        };
+        let _ = write!(sentence, "; {solver}; {}.", method.integrator.name());
+        sentence
+    }
+}
+
+/// Whether a row can move anything: something dynamic hangs on it, and it is not an empty spring.
+fn can_act(joint: &Joint, world: &World) -> bool {
+    let movable = |end: u32| world.bodies.inverse_mass.get(end as usize).is_some_and(|w| *w > 0.0);
+    (movable(joint.a) || movable(joint.b)) && (joint.form.stiffness > 0.0 || joint.form.damping > 0.0)
+}
+
+fn count(world: &World, which: impl Fn(&Kind) -> bool) -> usize {
+    world.constraints.kind.iter().filter(|kind| which(kind)).count()
+}
+
+fn plural(number: usize, name: &str) -> String {
+    if number == 1 { format!("1 {name}") } else { format!("{number} {name}s") }
+}

@@ -1,23 +1,58 @@
-//! A step, stage by stage.
-use super::{EngineError, Method, StepReport, World};
+//! A step, stage by stage: forces, prediction, detection, assembly, solve, update.
 
-/// Carries out a plan: `step` after `step`, with its own scratch memory.
+use super::collide::sweep::{drift, keep_out_of_walls};
+use super::collide::{BroadPhase, find_contacts};
+use super::error::{LARGEST_COORDINATE, LARGEST_SPEED};
+use super::integrate::{self, Forces, Scene, add_spring_forces};
+use super::plan::Plan;
+use super::report::{Divergence, Stage, StepReport};
+use super::solve::impact::Impacts;
+use super::solve::overlap::Planes;
+use super::solve::pgs::{Pgs, Task};
+use super::solve::projection::Projection;
+use super::state::State;
+use super::world::Contact;
+use super::{EngineError, Integrator, Method, Solver, World};
+use glam::DVec2;
+use std::mem::swap;
+
+/// Carries out a plan, step after step, with its own scratch memory: a warm step allocates nothing.
+///
+/// The world is changed only when a whole step went well. What the stepper remembers from step to step saves time but
+/// does not touch the result: a fresh stepper continues a world with the same bits.
+#[derive(Debug, Default)]
 pub struct Stepper {
     method: Method,
+    plan: Plan,
+    clock: Option<fn() -> u64>,
+    state: State,
+    forces: Forces,
+    broad: BroadPhase,
+    contacts: Vec<Contact>,
+    old_contacts: Vec<Contact>,
+    impacts: Impacts,
+    pgs: Pgs,
+    projection: Projection,
+    /// Multipliers by constraint, and the grip's [N].
+    force: Vec<DVec2>,
+    grip_force: DVec2,
+    /// Positions and angles at detection, overlaps parted.
+    detected_at: (Vec<DVec2>, Vec<f64>),
 }
 
 impl Stepper {
     /// A stepper for `method`.
     pub fn new(method: Method) -> Result<Stepper, EngineError> {
         method.validate()?;
-        Ok(Stepper { method })
+        Ok(Stepper { method, ..Stepper::default() })
     }
 
     /// Hands in a clock (nanoseconds from any origin) with which the stages are timed.
-    pub fn with_clock(self, _clock: fn() -> u64) -> Stepper {
-        self
+    pub fn with_clock(self, clock: fn() -> u64) -> Stepper {
+        Stepper { clock: Some(clock), ..self }
     }
 
+    /// How the world is stepped.
     pub fn method(&self) -> &Method {
         &self.method
     }
@@ -29,13 +64,286 @@ impl Stepper {
         Ok(())
     }
 
-    /// What the plan decided and why, in one sentence for the user.
+    /// The plan for `world`, derived now if it is not the one at hand.
+    pub fn plan(&mut self, world: &World) -> &Plan {
+        if !self.plan.fits(world, &self.method) {
+            self.plan.derive(world, &self.method);
+            self.broad.reset();
+        }
+        &self.plan
+    }
+
+    /// What the plan at hand decided and why, in one sentence for the user; empty before the first step.
     pub fn plan_sentence(&self) -> String {
-        String::new()
+        self.plan.sentence().to_string()
     }
 
     /// Steps the world once (1/hz seconds). If the run diverges the world is left as it was and the report says so.
-    pub fn step(&mut self, _world: &mut World) -> StepReport {
-        StepReport::default()
+    pub fn step(&mut self, world: &mut World) -> StepReport {
+        let mut laps = Laps::start(self.clock);
+        self.plan(world);
+        self.load(world);
+        let mut report = StepReport { substeps: self.method.substeps, ..StepReport::default() };
+        for substep in 0..self.method.substeps {
+            if self.plan.spin {
+                self.substep::<true>(world, &mut report, &mut laps);
+            } else {
+                self.substep::<false>(world, &mut report, &mut laps);
+            }
+            if let Some(divergence) = self.find_divergence(world, substep) {
+                report.divergence = Some(divergence);
+                break;
+            }
+        }
+        if report.divergence.is_none() {
+            self.store(world);
+        }
+        laps.end(Stage::Update);
+        self.fill_report(world, &laps, &mut report);
+        report
+    }
+
+    /// One substep, as in the textbook loop.
+    fn substep<const SPIN: bool>(&mut self, world: &World, report: &mut StepReport, laps: &mut Laps) {
+        let h = self.method.substep_seconds();
+        let Method { integrator, solver, .. } = self.method;
+        // A projection acts on predicted positions, so its contacts are found before anything moves.
+        let early = solver == Solver::Projection && integrate::drifts_first(integrator);
+        if early {
+            self.detect::<SPIN>(world, h, report);
+            laps.end(Stage::Detect);
+        }
+        if self.plan.contacts {
+            self.detected_at.0.clone_from(&self.state.position);
+        }
+        let scene = Scene { world, plan: &self.plan, h };
+        if integrate::evaluates_first(integrator) {
+            self.forces.evaluate(&scene, &self.state);
+        }
+        laps.end(Stage::Forces);
+        let remaining = integrate::begin(integrator, &scene, &mut self.state, &mut self.forces);
+        if solver == Solver::Pgs && integrate::drifts_first(integrator) {
+            self.keep_out_of_walls(world);
+        }
+        laps.end(Stage::Predict);
+        if !early {
+            self.detect::<SPIN>(world, h, report);
+            laps.end(Stage::Detect);
+        }
+        let mut task = self.task(h);
+        match solver {
+            Solver::Pgs => self.solve_velocities::<SPIN>(world, &task, remaining, report, laps),
+            Solver::Projection => self.solve_positions::<SPIN>(world, &task, remaining, report, laps),
+        }
+        if integrate::kicks_again(integrator) {
+            integrate::kick_again(&Scene { world, plan: &self.plan, h }, &mut self.state, &mut self.forces);
+            // A projection found moves, not impulses to start from.
+            task.warm_start = solver == Solver::Pgs;
+            self.pgs.reassemble::<SPIN>(world, &self.plan.joints, &self.state, &task);
+            report.iterations += self.pgs.solve::<SPIN>(&mut self.state, &task);
+            laps.end(Stage::Solve);
+        }
+        self.keep_multipliers(h);
+        laps.end(Stage::Update);
+    }
+
+    /// Contacts of the substep, and the impacts among them.
+    fn detect<const SPIN: bool>(&mut self, world: &World, h: f64, report: &mut StepReport) {
+        if !self.plan.contacts {
+            return;
+        }
+        report.broad_phase_builds += u32::from(self.broad.update(world, &self.plan, &self.state, h));
+        swap(&mut self.contacts, &mut self.old_contacts);
+        let (old, new) = (&self.old_contacts, &mut self.contacts);
+        report.candidates += find_contacts(world, &self.plan, &self.broad, &self.state, h, old, new);
+        self.pgs.assemble_contacts::<SPIN>(world, &self.contacts, &self.state);
+        self.detected_at.0.clone_from(&self.state.position);
+        self.detected_at.1.clone_from(&self.state.angle);
+        let part = self.method.baumgarte;
+        Planes::part_overlaps(&mut self.pgs.contacts, &self.detected_at.0, &mut self.state, part);
+        self.detected_at.0.clone_from(&self.state.position);
+        if self.plan.restitution {
+            let gravity = world.gravity.length();
+            report.impacts +=
+                self.impacts.resolve::<SPIN>(&self.pgs.contacts, &self.contacts, &mut self.state, h, gravity);
+            if self.method.solver == Solver::Pgs && integrate::drifts_first(self.method.integrator) {
+                self.impacts.drop_long_shifts(&world.bodies.radius);
+            }
+        }
+    }
+
+    /// PGS: rows, sweeps, then the drift with the velocities found.
+    fn solve_velocities<const SPIN: bool>(
+        &mut self,
+        world: &World,
+        task: &Task,
+        remaining: f64,
+        report: &mut StepReport,
+        laps: &mut Laps,
+    ) {
+        let multipliers = (&self.force[..], self.grip_force);
+        self.pgs.assemble::<SPIN>(world, &self.plan.joints, &self.state, multipliers, &self.contacts, task);
+        self.forget_multipliers();
+        laps.end(Stage::Assemble);
+        report.iterations += self.pgs.solve::<SPIN>(&mut self.state, task);
+        self.pgs.contacts.iter().for_each(|row| row.guard(&mut self.state, task.h));
+        report.residual = self.pgs.residual;
+        laps.end(Stage::Solve);
+        drift(&mut self.state, remaining, &self.impacts.shift);
+        self.keep_out_of_walls(world);
+        laps.end(Stage::Update);
+    }
+
+    /// Projection: the drift, then sweeps over the positions.
+    fn solve_positions<const SPIN: bool>(
+        &mut self,
+        world: &World,
+        task: &Task,
+        remaining: f64,
+        report: &mut StepReport,
+        laps: &mut Laps,
+    ) {
+        self.pgs.solve_grip::<SPIN>(world, &mut self.state, task);
+        self.forget_multipliers();
+        laps.end(Stage::Assemble);
+        drift(&mut self.state, remaining, &self.impacts.shift);
+        laps.end(Stage::Update);
+        let (position, angle) = &self.detected_at;
+        let mut planes = Planes { rows: &mut self.pgs.contacts, position, angle };
+        let steps = (task.h, task.iterations);
+        let (joints, state) = (&self.plan.joints, &mut self.state);
+        report.iterations += self.projection.solve::<SPIN>(joints, &mut planes, state, steps, &mut self.force);
+        report.residual = self.projection.residual;
+        self.keep_out_of_walls(world);
+        laps.end(Stage::Solve);
+    }
+
+    /// The last resort against tunnelling, along the whole way since detection.
+    fn keep_out_of_walls(&mut self, world: &World) {
+        if self.plan.contacts && !world.walls.is_empty() {
+            keep_out_of_walls(world, &mut self.state, &self.detected_at.0);
+        }
+    }
+
+    fn task(&self, h: f64) -> Task {
+        let Method { integrator, iterations, warm_start, baumgarte, .. } = self.method;
+        let share = if integrate::kicks_again(integrator) { 0.5 } else { 1.0 };
+        Task { h, iterations, warm_start, share, baumgarte }
+    }
+
+    fn forget_multipliers(&mut self) {
+        self.force.fill(DVec2::ZERO);
+        self.grip_force = DVec2::ZERO;
+    }
+
+    /// Turns the impulses found into forces, by constraint and by contact.
+    fn keep_multipliers(&mut self, h: f64) {
+        self.pgs.add_forces(&self.plan.joints, h, &mut self.force, &mut self.grip_force);
+        add_spring_forces(&self.forces, &self.plan.springs, &mut self.force);
+        for (contact, row) in self.contacts.iter_mut().zip(&self.pgs.contacts) {
+            contact.normal_force = (row.normal_impulse + row.found[0]) / h;
+            contact.tangent_force = (row.tangent_impulse + row.found[1]) / h;
+        }
+    }
+
+    fn load(&mut self, world: &World) {
+        self.state.load(world, self.plan.spin);
+        self.contacts.clone_from(&world.contacts);
+        self.force.clone_from(&world.constraints.force);
+        self.grip_force = world.grip.map_or(DVec2::ZERO, |grip| grip.force);
+        if !self.plan.contacts {
+            self.contacts.clear();
+            self.pgs.contacts.clear();
+        }
+        if !self.plan.restitution {
+            self.impacts.shift.clear();
+        }
+    }
+
+    fn store(&self, world: &mut World) {
+        self.state.store(world);
+        world.contacts.clone_from(&self.contacts);
+        world.constraints.force.copy_from_slice(&self.force);
+        if let Some(grip) = &mut world.grip {
+            grip.force = self.grip_force;
+        }
+        world.advance_clock(self.method.hz);
+    }
+
+    fn find_divergence(&self, world: &World, substep: u32) -> Option<Divergence> {
+        let state = &self.state;
+        let found = |i: usize, quantity, value| {
+            Some(Divergence { body: world.bodies.id[i], quantity, value, substep, advice: self.advice(world) })
+        };
+        for i in 0..state.len() {
+            let (far, speed) = (state.position[i].abs().max_element(), state.velocity[i].abs().max_element());
+            // Written so that a NaN is found too: max_element may hide one, a sum does not.
+            if !(far <= LARGEST_COORDINATE) || !state.position[i].is_finite() {
+                return found(i, "position", state.position[i].length());
+            }
+            if !(speed <= LARGEST_SPEED) || !state.velocity[i].is_finite() {
+                return found(i, "velocity", state.velocity[i].length());
+            }
+        }
+        let wild = |value: &f64| !(value.abs() <= LARGEST_SPEED * LARGEST_COORDINATE);
+        let turned = |values: &[f64]| values.iter().position(wild);
+        if let Some(i) = turned(&state.angle) {
+            return found(i, "angle", state.angle[i]);
+        }
+        turned(&state.omega).and_then(|i| found(i, "angular velocity", state.omega[i]))
+    }
+
+    /// The likely cause of a divergence in this scene, and what to try.
+    fn advice(&self, world: &World) -> String {
+        let masses = || world.bodies.mass.iter().zip(&world.bodies.inverse_mass).filter(|(_, w)| **w > 0.0);
+        let (light, heavy) = masses().fold((f64::INFINITY, 0.0f64), |(l, h), (m, _)| (l.min(*m), h.max(*m)));
+        if self.method.integrator == Integrator::ExplicitEuler {
+            "Explicit Euler gains energy at every step: try semi-implicit Euler or velocity Verlet.".to_string()
+        } else if heavy > 100.0 * light && self.plan.rows > 0 {
+            format!(
+                "The masses differ {:.0} : 1 along the constraints: try more iterations or substeps.",
+                heavy / light
+            )
+        } else {
+            "The step is too large for what moves here: try more substeps or a higher rate.".to_string()
+        }
+    }
+
+    fn fill_report(&self, world: &World, laps: &Laps, report: &mut StepReport) {
+        report.tick = world.tick;
+        report.bodies = world.bodies.len();
+        report.constraints = world.constraints.len();
+        report.rows = self.plan.rows + 2 * self.contacts.len();
+        report.contacts = self.contacts.iter().filter(|contact| contact.normal_force > 0.0).count();
+        report.stage_us = laps.stage_us;
+        report.step_us = laps.total_us();
+    }
+}
+
+/// Time by stage, from a clock that may not be there.
+struct Laps {
+    clock: Option<fn() -> u64>,
+    started: u64,
+    last: u64,
+    stage_us: [f64; 6],
+}
+
+impl Laps {
+    fn start(clock: Option<fn() -> u64>) -> Laps {
+        let now = clock.map_or(0, |clock| clock());
+        Laps { clock, started: now, last: now, stage_us: [0.0; 6] }
+    }
+
+    /// Counts the time since the last call for `stage`.
+    fn end(&mut self, stage: Stage) {
+        if let Some(clock) = self.clock {
+            let now = clock();
+            self.stage_us[stage as usize] += now.saturating_sub(self.last) as f64 / 1e3;
+            self.last = now;
+        }
+    }
+
+    fn total_us(&self) -> f64 {
+        self.last.saturating_sub(self.started) as f64 / 1e3
     }
 }

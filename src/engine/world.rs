@@ -7,6 +7,7 @@ use super::id::{Id, find};
 use super::shape::Wall;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a contact is with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -63,6 +64,8 @@ pub struct World {
     pub(crate) tick: u64,
     /// Simulated time [s].
     pub(crate) time: f64,
+    /// Time, tick and rate when the rate was last changed: time is counted from there, so that it does not sum up rounding.
+    pub(crate) epoch: (f64, u64, f64),
     pub(crate) gravity: DVec2,
     /// Rate at which free motion dies away [1/s]: v' = −drag · v.
     pub(crate) drag: f64,
@@ -72,11 +75,41 @@ pub struct World {
     pub(crate) wall_ids: Vec<Id>,
     pub(crate) walls: Vec<Wall>,
     pub(crate) grip: Option<Grip>,
-    /// Contacts of the last substep, ordered by (a, b).
+    /// Contacts of the last substep: with bodies, then with walls, each ordered by (a, b).
     pub(crate) contacts: Vec<Contact>,
-    /// Grows with every edit that a plan depends on.
-    pub(crate) revision: u64,
+    /// Changes with every edit that a plan depends on.
+    #[serde(skip)]
+    pub(crate) revision: Revision,
     pub(crate) next_id: u64,
+}
+
+/// The name of a state of the things a plan is derived from. Never given twice in a process, so that a plan made for one
+/// world cannot be taken for another's, also after undo. Not part of the physics: any two compare equal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Revision(u64);
+
+impl Revision {
+    fn next() -> Revision {
+        static NEXT: AtomicU64 = AtomicU64::new(1);
+        Revision(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+
+    /// Whether both name the same state.
+    pub fn same(self, other: Revision) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl Default for Revision {
+    fn default() -> Self {
+        Revision::next()
+    }
+}
+
+impl PartialEq for Revision {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Default for World {
@@ -84,6 +117,7 @@ impl Default for World {
         World {
             tick: 0,
             time: 0.0,
+            epoch: (0.0, 0, 0.0),
             gravity: DVec2::new(0.0, -9.81),
             drag: 0.0,
             tuning: Tuning::default(),
@@ -93,7 +127,7 @@ impl Default for World {
             walls: Vec::new(),
             grip: None,
             contacts: Vec::new(),
-            revision: 0,
+            revision: Revision::next(),
             next_id: 1,
         }
     }
@@ -153,7 +187,7 @@ impl World {
         self.grip.as_ref()
     }
 
-    /// Contacts of the last substep, those about to touch included, ordered by (a, b).
+    /// Contacts of the last substep, those about to touch included: with bodies, then with walls, each ordered by (a, b).
     pub fn contacts(&self) -> &[Contact] {
         &self.contacts
     }
@@ -247,7 +281,7 @@ impl World {
     pub fn set_gravity(&mut self, gravity: DVec2) -> Result<(), EngineError> {
         check("gravity", gravity.length(), [0.0, 1e6], "finite and at most 1e6 m/s²")?;
         self.gravity = gravity;
-        self.revision += 1;
+        self.revision = Revision::next();
         Ok(())
     }
 
@@ -255,7 +289,7 @@ impl World {
     pub fn set_drag(&mut self, drag: f64) -> Result<(), EngineError> {
         check("drag", drag, [0.0, 1e6], "between 0 and 1e6 1/s")?;
         self.drag = drag;
-        self.revision += 1;
+        self.revision = Revision::next();
         Ok(())
     }
 
@@ -269,7 +303,7 @@ impl World {
         }
         check("stiffness factor", tuning.stiffness, [0.0, 1e9], "between 0 and 1e9")?;
         self.tuning = tuning;
-        self.revision += 1;
+        self.revision = Revision::next();
         Ok(())
     }
 
@@ -292,7 +326,7 @@ impl World {
         if body.spin.is_none() {
             self.flatten_anchors(index as u32);
         }
-        self.revision += 1;
+        self.revision = Revision::next();
         Ok(())
     }
 
@@ -318,7 +352,7 @@ impl World {
         if self.grip.is_some_and(|grip| ids.contains(&grip.body)) {
             self.grip = None;
         }
-        self.revision += 1;
+        self.revision = Revision::next();
     }
 
     /// Adds a constraint and names it.
@@ -343,7 +377,7 @@ impl World {
         kind.validate()?;
         let index = self.constraints.index_of(id).ok_or(EngineError::NoConstraint(id))?;
         self.constraints.kind[index] = kind;
-        self.revision += 1;
+        self.revision = Revision::next();
         Ok(())
     }
 
@@ -351,7 +385,7 @@ impl World {
     pub fn remove_constraints(&mut self, ids: &[Id]) {
         let keep: Vec<bool> = self.constraints.id.iter().map(|id| !ids.contains(id)).collect();
         self.keep_constraints(&keep);
-        self.revision += 1;
+        self.revision = Revision::next();
     }
 
     /// Adds a wall and names it.
@@ -368,7 +402,7 @@ impl World {
         wall.validate()?;
         let index = find(&self.wall_ids, id).ok_or(EngineError::NoWall(id))?;
         self.walls[index] = *wall;
-        self.revision += 1;
+        self.revision = Revision::next();
         Ok(())
     }
 
@@ -378,7 +412,7 @@ impl World {
         retain(&mut self.walls, &keep);
         retain(&mut self.wall_ids, &keep);
         self.contacts.retain(|contact| matches!(contact.b, Touching::Body(_)));
-        self.revision += 1;
+        self.revision = Revision::next();
     }
 
     /// Takes hold of a body, moves the hold, or (with `None`) lets go; the body keeps its velocity.
@@ -395,10 +429,19 @@ impl World {
         Ok(())
     }
 
+    /// Counts a step at `hz` steps a second.
+    pub(crate) fn advance_clock(&mut self, hz: f64) {
+        if self.epoch.2 != hz {
+            self.epoch = (self.time, self.tick, hz);
+        }
+        self.tick += 1;
+        self.time = self.epoch.0 + (self.tick - self.epoch.1) as f64 / hz;
+    }
+
     fn take_id(&mut self) -> Id {
         let id = Id(self.next_id);
         self.next_id += 1;
-        self.revision += 1;
+        self.revision = Revision::next();
         id
     }
 

@@ -3,6 +3,13 @@
 //! A multiplier is the force along the row [N]; the force on the bodies is Jᵀλ. For distances J points so that a *positive*
 //! C is a stretch, hence a pull is a negative λ; [`Constraint::tension`] turns that round: positive pulls, negative pushes.
 
+pub(crate) mod form;
+pub(crate) mod grip;
+mod pin;
+mod rod;
+mod rope;
+mod spring;
+
 use super::error::{EngineError, check, check_point};
 use super::id::Id;
 use glam::DVec2;

@@ -1,0 +1,95 @@
+//! Continuous detection: where a moving disc first meets something, and the drift that stops there as the last resort.
+
+use super::may_touch_walls;
+use crate::engine::shape::Shape;
+use crate::engine::state::State;
+use crate::engine::world::World;
+use glam::DVec2;
+
+/// Part of a disc's radius that must never get through a wall. Contacts stop the full disc; this catches what a solver that
+/// did not converge, or an edit, lets through. Smaller lets discs sink in deeper before it acts.
+pub(crate) const CORE: f64 = 0.5;
+/// Steps of conservative advancement; a path that still has not met the wall then grazes it closer than any contact.
+const ADVANCES: u32 = 64;
+
+/// First meeting of a disc at `offset` from another, moving by `path`, when their radii add up to `radius`: the unit normal
+/// towards the moving disc there, and the fraction of the path. `None` if they do not meet or part.
+pub(super) fn disc_hits_disc(offset: DVec2, path: DVec2, radius: f64) -> Option<(DVec2, f64)> {
+    // |offset + t path| = radius, the smaller root, in the form that does not cancel.
+    let (a, b, c) = (path.length_squared(), offset.dot(path), offset.length_squared() - radius * radius);
+    let discriminant = b * b - a * c;
+    if b >= 0.0 || c < 0.0 || discriminant < 0.0 {
+        return None;
+    }
+    let t = c / (-b + discriminant.sqrt());
+    (t <= 1.0).then(|| ((offset + t * path) / radius, t))
+}
+
+/// First meeting of a disc of `radius` at `position` with a wall, moving by `path`: the outward unit normal there and the
+/// fraction of the path.
+///
+/// Conservative advancement: the distance to the wall is a step that cannot jump over it, whatever the wall's shape.
+pub(super) fn disc_hits_wall(shape: &Shape, position: DVec2, path: DVec2, radius: f64) -> Option<(DVec2, f64)> {
+    let length = path.length();
+    let tolerance = 1e-9 * radius;
+    let mut t = 0.0;
+    for _ in 0..ADVANCES {
+        let (distance, normal) = shape.distance(position + t * path);
+        let gap = distance - radius;
+        if gap <= tolerance {
+            return (path.dot(normal) < 0.0).then_some((normal, t));
+        }
+        t += gap / length;
+        if !(t <= 1.0) {
+            return None;
+        }
+    }
+    let (distance, normal) = shape.distance(position + t * path);
+    (distance - radius <= 1e-3 * radius && path.dot(normal) < 0.0).then_some((normal, t))
+}
+
+/// Moves every body that moves along its velocity for `h` seconds, and by its entry of `shift` (nothing, if that is empty).
+pub(crate) fn drift(state: &mut State, h: f64, shift: &[DVec2]) {
+    for i in 0..state.len() {
+        if state.moves[i] {
+            state.position[i] += h * state.velocity[i] + shift.get(i).copied().unwrap_or(DVec2::ZERO);
+        }
+    }
+    for (angle, omega) in state.angle.iter_mut().zip(&state.omega) {
+        *angle += h * omega;
+    }
+}
+
+/// Puts a body back to where its core met a wall on the straight way from `start`; there its velocity into the wall ends.
+pub(crate) fn keep_out_of_walls(world: &World, state: &mut State, start: &[DVec2]) {
+    for (i, from) in start.iter().enumerate().take(state.len()) {
+        let path = state.position[i] - *from;
+        let core = CORE * world.bodies.radius[i];
+        if path.length_squared() > core * core
+            && may_touch_walls(world, i as u32)
+            && let Some((normal, fraction)) = first_wall(world, *from, path, core)
+        {
+            state.position[i] = *from + path * fraction;
+            let into = state.velocity[i].dot(normal).min(0.0);
+            state.velocity[i] -= into * normal;
+        }
+    }
+}
+
+/// The first wall that a disc of radius `core` meets on `path` from outside of it: its normal there, the fraction of the path.
+fn first_wall(world: &World, from: DVec2, path: DVec2, core: f64) -> Option<(DVec2, f64)> {
+    let (low, high) = (from.min(from + path), from.max(from + path));
+    let mut first: Option<(DVec2, f64)> = None;
+    for wall in &world.walls {
+        let (min, max) = wall.shape.bounds();
+        let near = min.cmple(high + DVec2::splat(core)).all() && max.cmpge(low - DVec2::splat(core)).all();
+        if near
+            && wall.shape.distance(from).0 > core
+            && let Some(hit) = disc_hits_wall(&wall.shape, from, path, core)
+            && first.is_none_or(|first| hit.1 < first.1)
+        {
+            first = Some(hit);
+        }
+    }
+    first
+}

@@ -1,0 +1,118 @@
+//! The one form of every constraint: an error C(q), rows of J, a stiffness (compliance α = 1/k, 0 when rigid), a damping,
+//! and bounds on the multiplier. Solvers see this and nothing else.
+//!
+//! A row acts along a unit vector n at one point of each body: J = (−n, −r_a×n | n, r_b×n), so the forces on the two bodies
+//! are equal and opposite. Ċ = J v, and its share of A = J M⁻¹ Jᵀ is K = w_a + w_b + (r_a×n)²/I_a + (r_b×n)²/I_b.
+
+use super::{Kind, pin, rod, rope, spring};
+use crate::engine::state::State;
+use glam::DVec2;
+
+/// What C measures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Measure {
+    /// |p_b − p_a| − length: one row along the line between the ends.
+    Distance { length: f64 },
+    /// p_b − p_a: two rows, along x and y.
+    Offset,
+}
+
+/// A constraint as the solvers see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Form {
+    pub measure: Measure,
+    /// 1/α [N/m]; infinite for a rigid constraint.
+    pub stiffness: f64,
+    /// [N·s/m]
+    pub damping: f64,
+    /// Bounds on λ [N]: a rope only pulls, so its λ ≤ 0.
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Form {
+    /// A rigid constraint that acts both ways.
+    pub fn rigid(measure: Measure) -> Form {
+        Form { measure, stiffness: f64::INFINITY, damping: 0.0, low: f64::NEG_INFINITY, high: f64::INFINITY }
+    }
+
+    /// The form of a constraint; `stiffness_factor` scales every spring.
+    pub fn of(kind: &Kind, stiffness_factor: f64) -> Form {
+        match *kind {
+            Kind::Rod { length } => rod::form(length),
+            Kind::Rope { length } => rope::form(length),
+            Kind::Spring { rest, stiffness, damping } => spring::form(rest, stiffness * stiffness_factor, damping),
+            Kind::Pin => pin::form(),
+        }
+    }
+
+    /// Number of scalar rows.
+    pub fn rows(&self) -> usize {
+        match self.measure {
+            Measure::Distance { .. } => 1,
+            Measure::Offset => 2,
+        }
+    }
+}
+
+/// A constraint of the plan: its form, and its ends as indices into [`State`] (the world has the last index).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Joint {
+    /// Index in the world's list of constraints.
+    pub index: u32,
+    pub a: u32,
+    pub b: u32,
+    pub at_a: DVec2,
+    pub at_b: DVec2,
+    pub form: Form,
+}
+
+/// One scalar row at the present positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Row {
+    pub normal: DVec2,
+    /// r_a × n and r_b × n [m].
+    pub arm_a: f64,
+    pub arm_b: f64,
+    /// C [m].
+    pub error: f64,
+}
+
+impl Joint {
+    /// The rows of J and C at the present positions; a distance has one, and leaves the second unset.
+    pub fn rows<const SPIN: bool>(&self, state: &State) -> [Option<Row>; 2] {
+        let (r_a, r_b) = (state.arm::<SPIN>(self.a, self.at_a), state.arm::<SPIN>(self.b, self.at_b));
+        let offset = state.position[self.b as usize] + r_b - state.position[self.a as usize] - r_a;
+        let row =
+            |normal: DVec2, error| Row { normal, arm_a: r_a.perp_dot(normal), arm_b: r_b.perp_dot(normal), error };
+        match self.form.measure {
+            Measure::Distance { length } => {
+                let distance = offset.length();
+                // Coinciding ends have no direction; any fixed one lets them part again.
+                let normal = if distance > 0.0 { offset / distance } else { DVec2::X };
+                [Some(row(normal, distance - length)), None]
+            }
+            Measure::Offset => [Some(row(DVec2::X, offset.x)), Some(row(DVec2::Y, offset.y))],
+        }
+    }
+
+    /// K = J M⁻¹ Jᵀ of one row [1/kg].
+    pub fn inverse_effective_mass<const SPIN: bool>(&self, row: &Row, state: &State) -> f64 {
+        let (a, b) = (self.a as usize, self.b as usize);
+        let mut k = state.inverse_mass[a] + state.inverse_mass[b];
+        if SPIN {
+            k += state.inverse_inertia[a] * row.arm_a * row.arm_a + state.inverse_inertia[b] * row.arm_b * row.arm_b;
+        }
+        k
+    }
+
+    /// J v of one row [m/s].
+    pub fn speed<const SPIN: bool>(&self, row: &Row, state: &State) -> f64 {
+        let (a, b) = (self.a as usize, self.b as usize);
+        let mut speed = row.normal.dot(state.velocity[b] - state.velocity[a]);
+        if SPIN {
+            speed += row.arm_b * state.omega[b] - row.arm_a * state.omega[a];
+        }
+        speed
+    }
+}
