@@ -176,12 +176,13 @@ impl Pgs {
 
     /// Adds the forces found in this substep [N] to the list by constraint and to the grip's.
     pub fn add_forces(&self, joints: &[Joint], h: f64, force: &mut [DVec2], grip_force: &mut DVec2) {
-        let mut next = 0;
+        let found = self.found.iter().copied().chain(std::iter::repeat(0.0));
+        let mut impulses = self.joints.iter().zip(found).map(|(row, found)| row.impulse + found);
         for joint in joints.iter().take_while(|_| !self.joints.is_empty()) {
-            for axis in 0..joint.form.rows() {
-                let found = self.found.get(next).copied().unwrap_or(0.0);
-                force[joint.index as usize][axis] += (self.joints[next].impulse + found) / h;
-                next += 1;
+            let total = &mut force[joint.index as usize];
+            total.x += impulses.next().map_or(0.0, |impulse| impulse / h);
+            if joint.form.rows() == 2 {
+                total.y += impulses.next().map_or(0.0, |impulse| impulse / h);
             }
         }
         if let Some(grip) = &self.grip {

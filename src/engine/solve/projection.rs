@@ -85,7 +85,8 @@ impl Projection {
 /// One visit; returns by how much it changed C [m].
 fn project<const SPIN: bool>(joint: &Joint, part: f64, state: &mut State, h: f64, force: &mut [DVec2]) -> f64 {
     let mut largest: f64 = 0.0;
-    for axis in 0..joint.form.rows() {
+    let of_joint = &mut force[joint.index as usize];
+    for (axis, multiplier) in [&mut of_joint.x, &mut of_joint.y].into_iter().enumerate() {
         let Some(row) = joint.rows::<SPIN>(state)[axis] else { break };
         if joint.form.high == 0.0 && row.error <= 0.0 {
             break;
@@ -99,7 +100,7 @@ fn project<const SPIN: bool>(joint: &Joint, part: f64, state: &mut State, h: f64
             state.angle[a] -= state.inverse_inertia[a] * lambda * row.arm_a;
             state.angle[b] += state.inverse_inertia[b] * lambda * row.arm_b;
         }
-        force[joint.index as usize][axis] += lambda / (h * h);
+        *multiplier += lambda / (h * h);
         largest = largest.max(change.abs());
     }
     largest
