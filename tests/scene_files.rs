@@ -18,7 +18,8 @@ fn every_shipped_scene_builds_and_explains_itself() {
 fn a_document_comes_back_from_its_text_unchanged() {
     for shipped in scene::shipped() {
         let document = Document::from_text(shipped.name, shipped.text).unwrap_or_else(|error| panic!("{error}"));
-        let again = Document::from_text(shipped.name, &scene::to_ron(&document)).unwrap_or_else(|error| panic!("{error}"));
+        let again =
+            Document::from_text(shipped.name, &scene::to_ron(&document)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(document, again, "{}", shipped.name);
     }
 }

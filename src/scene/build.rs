@@ -140,10 +140,10 @@ fn body(fields: &BodyFields) -> Result<Body, Fault> {
 /// Mass [kg] of a disc of `density` [kg/m²] and `radius` [m].
 pub(crate) fn disc_mass(density: f64, radius: f64) -> Result<f64, Fault> {
     let mass = density * std::f64::consts::PI * radius * radius;
-    if mass >= 1e-12 && mass <= 1e12 {
+    if (1e-12..=1e12).contains(&mass) {
         return Ok(mass);
     }
-    let found = format!("density {density}, which with radius {radius} makes a mass of {mass} kg");
+    let found = format!("density {density:?}, which with radius {radius:?} makes a mass of {mass:?} kg");
     let mend = "Change the density or the radius.";
     Err(Fault::new(Some("density"), Problem::new(found, "a mass between 1e-12 and 1e12 kg", mend)))
 }
@@ -210,7 +210,7 @@ fn add_wall(world: &mut World, entry: &WallEntry) -> Result<(), Fault> {
         }
         WallEntry::Line { ref points, restitution, friction } => {
             if points.len() < 2 {
-                let found = format!("a line of {} points", points.len());
+                let found = "a line of fewer than two points";
                 return Err(Fault::new(Some("points"), Problem::new(found, "at least two points", "Add a point.")));
             }
             for pair in points.windows(2) {

@@ -90,7 +90,7 @@ impl Fault {
 
     /// A fault of a value that is out of its range.
     pub(crate) fn value(field: &'static str, value: f64, expected: impl Into<String>) -> Fault {
-        Fault::new(Some(field), Problem::new(format!("{field} {value}"), expected, "Change the number."))
+        Fault::new(Some(field), Problem::new(format!("{field} {value:?}"), expected, "Change the number."))
     }
 
     /// The same fault, seen from the list that holds the part.
@@ -130,7 +130,7 @@ impl From<EngineError> for Fault {
         match error {
             EngineError::BadValue { what, value, expected } => {
                 let mend = format!("Change the {what} to a value in that range.");
-                Fault::new(field_of(what), Problem::new(format!("{what} {value}"), expected, mend))
+                Fault::new(field_of(what), Problem::new(format!("{what} {value:?}"), expected, mend))
             }
             EngineError::SameEnds => Fault::new(
                 Some("b"),

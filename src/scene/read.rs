@@ -153,6 +153,7 @@ fn syntax_error(name: &str, text: &str, error: &SpannedError) -> SceneError {
         | Error::NoSuchEnumVariant { .. }
         | Error::DuplicateStructField { .. }
         | Error::InvalidValueForType { .. }
+        | Error::IntegerOutOfBounds
         | Error::ExpectedDifferentStructName { .. } => [start.line, start.col],
         _ => [end.line, end.col],
     };
@@ -180,10 +181,14 @@ fn syntax_problem(code: &ron::Error, token: &str) -> Problem {
             format!("Add `{field}: …` to the brackets that end here."),
         ),
         Error::InvalidValueForType { expected, found } => {
-            Problem::new(found.clone(), expected.clone(), "Change the value.")
+            let found = ["unsigned integer", "signed integer", "floating point number"]
+                .iter()
+                .fold(found.clone(), |text, long| text.replace(long, "number"));
+            Problem::new(found, expected.clone(), "Change the value.")
         }
-        Error::ExpectedDifferentLength { expected, found } => {
-            Problem::new(format!("{found} values"), plain_length(expected), "Points are written as (1.0, 2.0).")
+        // The only lists of a fixed length are points and pairs.
+        Error::ExpectedDifferentLength { found, .. } => {
+            Problem::new(format!("the end after {found} of two numbers"), "two numbers", "Write a point as (1.0, 2.0).")
         }
         Error::ExpectedDifferentStructName { expected, found } => Problem::new(
             format!("`{found}`"),
@@ -195,7 +200,10 @@ fn syntax_problem(code: &ron::Error, token: &str) -> Problem {
             format!("at most {DEEPEST} levels"),
             "Remove the extra brackets.",
         ),
-        Error::Eof => Problem::new("the end of the file", "the rest of the scene", CLOSE),
+        Error::Eof => Problem::new(END, "the rest of the scene", CLOSE),
+        Error::ExpectedComma if token.starts_with("`.") => {
+            Problem::new(format!("the fraction {token}"), "a whole number", "Write a whole number such as 4.")
+        }
         Error::TrailingCharacters => {
             Problem::new(format!("{token} after the end of the scene"), "nothing more", "Remove it, or move it inside.")
         }
@@ -209,11 +217,12 @@ fn syntax_problem(code: &ron::Error, token: &str) -> Problem {
         ),
         other => {
             let (expected, mend) = expectation(other);
-            Problem::new(token, expected, mend)
+            Problem::new(token, expected, if token == END { CLOSE } else { mend })
         }
     }
 }
 
+const END: &str = "the end of the file";
 const CLOSE: &str = "Close every bracket and quote that was opened.";
 
 /// What the reader expected, and the usual cause, for errors that carry nothing but their kind.
@@ -228,11 +237,13 @@ fn expectation(code: &ron::Error) -> (String, &'static str) {
         Error::ExpectedNamedStructLike("DVec2") => {
             ("a point such as (1.0, 2.0)", "Write both coordinates in brackets.")
         }
-        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => ("an opening bracket `(`", "Put it in ( )."),
+        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => {
+            ("an opening bracket `(`", "Put the fields in ( ), as in `(version: 1)`.")
+        }
         Error::ExpectedStructLikeEnd => ("a comma or the closing bracket `)`", "Add what is missing, or remove this."),
         Error::ExpectedArray => ("a list in [ ]", "Put the entries in square brackets, also if there is only one."),
         Error::ExpectedArrayEnd => ("a comma or the closing bracket `]`", "Add what is missing, or remove this."),
-        Error::ExpectedComma => ("a comma", "Separate entries with commas."),
+        Error::ExpectedComma => ("a comma", "Separate entries with commas, and write numbers without units."),
         Error::ExpectedMapColon => ("a colon after the name of a field", "Write fields as `name: value`."),
         Error::ExpectedIdentifier | Error::InvalidIdentifier(_) => {
             ("the name of a field or a kind", "Write fields as `name: value`, and kinds as in `Disc(radius: 0.5)`.")
@@ -259,17 +270,14 @@ fn unknown(what: &str, found: &str, expected: &[&str]) -> Problem {
     Problem::new(format!("the unknown {what} `{found}`"), format!("one of {known}"), mend)
 }
 
-/// The library's name for a point is not the format's.
-fn plain_length(expected: &str) -> String {
-    if expected.contains("DVec2") { "a point of two numbers".to_owned() } else { expected.to_owned() }
-}
-
 /// What stands at a place, as a user would point at it.
 fn token_at(text: &str, [line, column]: [usize; 2]) -> String {
-    let rest: String = text.lines().nth(line - 1).unwrap_or("").chars().skip(column - 1).take(24).collect();
+    let mut lines = text.lines().skip(line - 1);
+    let rest: String = lines.next().unwrap_or("").chars().skip(column - 1).take(24).collect();
     let is_word = |c: char| c.is_alphanumeric() || "_.+-".contains(c);
     let word: String = rest.chars().take_while(|c| is_word(*c)).collect();
     match rest.chars().next() {
+        None if lines.all(|line| line.trim().is_empty()) => END.to_owned(),
         None => "the end of the line".to_owned(),
         Some('"') => format!("the text {}", rest.split_inclusive('"').take(2).collect::<String>()),
         Some(first) if word.is_empty() => format!("`{first}`"),

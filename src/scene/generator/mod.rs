@@ -104,29 +104,21 @@ impl Generator {
     }
 }
 
-/// `Ok` if a parameter lies within a range.
+/// `Ok` if a parameter lies within a range; `unit` is empty for a count.
 fn check_range(field: &'static str, value: f64, [low, high]: [f64; 2], unit: &str) -> Result<(), Fault> {
     if value >= low && value <= high {
         return Ok(());
     }
-    Err(Fault::value(
-        field,
-        value,
-        format!("a value between {low} and {high}{}{unit}", if unit.is_empty() { "" } else { " " }),
-    ))
+    let expected = format!("a value between {low} and {high} {unit}");
+    Err(Fault::value(field, value, expected.trim_end()))
 }
 
 /// A collision group that no body has yet: its members do not touch each other.
 fn fresh_group(world: &World) -> u32 {
-    let mut used: Vec<u32> = world.bodies().group.clone();
+    let mut used = world.bodies().group.clone();
     used.sort_unstable();
-    used.dedup();
-    // Sorted and distinct: the first gap after 0 is free. There are fewer bodies than numbers.
-    used.iter()
-        .filter(|group| **group > 0)
-        .zip(1..)
-        .find(|(group, wanted)| **group != *wanted)
-        .map_or_else(|| used.iter().filter(|group| **group > 0).count() as u32 + 1, |(_, wanted)| wanted)
+    // There are fewer bodies than numbers, so the count never overflows.
+    used.iter().fold(1, |free, &group| if group == free { free + 1 } else { free })
 }
 
 #[cfg(test)]
