@@ -157,6 +157,7 @@ fn syntax_error(name: &str, text: &str, error: &SpannedError) -> SceneError {
         | Error::ExpectedDifferentStructName { .. } => [start.line, start.col],
         _ => [end.line, end.col],
     };
+    let place = if matches!(error.code, Error::IntegerOutOfBounds) { at_sign(text, place) } else { place };
     if text.trim().is_empty() {
         let mend = "Start with `(version: 1, bodies: [Disc(position: (0, 1))])`.";
         return SceneError::text(name, [1, 1], Problem::new("an empty file", "a scene", mend));
@@ -268,6 +269,12 @@ fn unknown(what: &str, found: &str, expected: &[&str]) -> Problem {
         None => "Remove it or use one of those.".to_owned(),
     };
     Problem::new(format!("the unknown {what} `{found}`"), format!("one of {known}"), mend)
+}
+
+/// The reader steps over the sign of a number before it reports the number.
+fn at_sign(text: &str, [line, column]: [usize; 2]) -> [usize; 2] {
+    let before = text.lines().nth(line - 1).and_then(|line| line.chars().nth(column.checked_sub(2)?));
+    [line, if before == Some('-') { column - 1 } else { column }]
 }
 
 /// What stands at a place, as a user would point at it.
