@@ -1,5 +1,6 @@
 //! Tautline: a sandbox for 2D physics with constraints. The rooms, each importing only from rooms further down the list:
 //!
+//! - [`cli`]: the command line
 //! - `window` (binary's desktop shell): the winit loop that ties `ui`, `render` and `app` together
 //! - `ui`: egui panels and plots; `render`: wgpu pipelines, one per kind of mark
 //! - `app`: the simulation thread, commands, camera, tools, undo
@@ -9,6 +10,7 @@
 
 #[cfg(feature = "desktop")]
 pub mod app;
+pub mod cli;
 pub mod engine;
 pub mod measure;
 pub mod scene;

@@ -1,0 +1,76 @@
+//! The command line: what can be asked for, and who answers. Exit codes: 0 done, 1 failed, 2 not understood.
+
+mod check;
+mod desktop;
+mod numbers;
+pub mod run;
+mod scenes;
+
+use clap::{Parser, Subcommand};
+use std::io::ErrorKind;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// A desktop sandbox for 2D physics with constraints.
+///
+/// Without a command the sandbox opens on a running rope bridge.
+#[derive(Debug, Parser)]
+#[command(name = "tautline", version)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// What can be asked for.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Opens the sandbox on a scene.
+    Open {
+        /// Name of a shipped scene, or path of a scene file
+        scene: String,
+    },
+    Run(run::RunArguments),
+    /// Lists the shipped scenes.
+    Scenes,
+    Check(check::CheckArguments),
+    Shot(ShotArguments),
+}
+
+/// Draws a scene into a PNG file, without a window.
+#[derive(Debug, clap::Args)]
+pub struct ShotArguments {
+    /// Name of a shipped scene, or path of a scene file
+    pub scene: String,
+    /// The picture to write
+    pub file: PathBuf,
+    /// Simulated time of the picture [s]
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = numbers::seconds)]
+    pub at: f64,
+    /// Width and height [pixels]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x800", value_parser = numbers::size)]
+    pub size: [u32; 2],
+    #[arg(long, default_value = "dark", value_parser = ["dark", "light"])]
+    pub theme: String,
+    /// Draw the whole sandbox, panels included
+    #[arg(long)]
+    pub window: bool,
+}
+
+/// Does what was asked for.
+pub fn execute(arguments: Arguments) -> anyhow::Result<ExitCode> {
+    match arguments.command {
+        None => desktop::open(None)?,
+        Some(Command::Open { scene }) => desktop::open(Some(&scene))?,
+        Some(Command::Run(arguments)) => run::execute(&arguments)?,
+        Some(Command::Scenes) => scenes::execute()?,
+        Some(Command::Check(arguments)) => return check::execute(&arguments),
+        Some(Command::Shot(arguments)) => desktop::shot(&arguments)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Whether an error only says that the reader of our output has gone.
+pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    let kinds = error.chain().filter_map(|cause| cause.downcast_ref::<std::io::Error>());
+    kinds.into_iter().any(|error| error.kind() == ErrorKind::BrokenPipe)
+}

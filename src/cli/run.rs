@@ -1,0 +1,275 @@
+//! `tautline run`: steps a scene without a window and writes what happens.
+
+use super::numbers;
+use crate::engine::{Divergence, Integrator, Method, Solver, StepReport, Stepper, World};
+use crate::measure::Measures;
+use crate::scene;
+use anyhow::Context;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::fs::File;
+use std::io::{BufWriter, ErrorKind, Write};
+use std::path::Path;
+use std::sync::OnceLock;
+use std::time::Instant;
+
+/// Steps a scene without a window and writes trajectories and measures as CSV.
+///
+/// Rows are written at time 0 and then every `--every` seconds, each at the step nearest to that time (never twice at the
+/// same step). All units are SI; numbers are written so that they are read back with the same bits.
+#[derive(Debug, clap::Args)]
+pub struct RunArguments {
+    /// Name of a shipped scene, or path of a scene file
+    scene: String,
+    /// Simulated time [s]
+    #[arg(long, default_value = "10", value_parser = numbers::seconds, allow_hyphen_values = true)]
+    seconds: f64,
+    /// Time between rows [s], such as 0.1 or 1/60; every step if not given
+    #[arg(long, value_parser = numbers::interval, allow_hyphen_values = true)]
+    every: Option<f64>,
+    /// Write time,id,x,y,angle,vx,vy,omega of every body to a file, or to standard output with `-`
+    #[arg(long, value_name = "FILE")]
+    csv: Option<String>,
+    /// Write energies, momenta, violation, penetration, contacts and the mean time of a step to a file, or `-`
+    #[arg(long, value_name = "FILE")]
+    measures: Option<String>,
+    /// Steps a second, in place of the scene's
+    #[arg(long, value_parser = numbers::hz, allow_hyphen_values = true)]
+    hz: Option<f64>,
+    /// Substeps a step, in place of the scene's
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    substeps: Option<u32>,
+    /// Solver sweeps a substep, in place of the scene's
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    iterations: Option<u32>,
+    /// How positions and velocities are carried on, in place of the scene's way
+    #[arg(long, value_parser = integrator())]
+    integrator: Option<Integrator>,
+    /// How constraints and contacts are solved, in place of the scene's way
+    #[arg(long, value_parser = solver())]
+    solver: Option<Solver>,
+    /// Start every solve from zero instead of the last multipliers
+    #[arg(long)]
+    no_warm_start: bool,
+    /// Part of the position error that PGS feeds back in a substep, 0 to 1
+    #[arg(long, value_parser = numbers::baumgarte, allow_hyphen_values = true)]
+    baumgarte: Option<f64>,
+    /// Print a hash over the bits of the last state: equal runs, equal hashes
+    #[arg(long)]
+    hash: bool,
+}
+
+fn integrator() -> impl TypedValueParser<Value = Integrator> {
+    PossibleValuesParser::new(["explicit-euler", "semi-implicit-euler", "position-verlet", "velocity-verlet"]).map(
+        |name| match name.as_str() {
+            "explicit-euler" => Integrator::ExplicitEuler,
+            "position-verlet" => Integrator::PositionVerlet,
+            "velocity-verlet" => Integrator::VelocityVerlet,
+            _ => Integrator::SemiImplicitEuler,
+        },
+    )
+}
+
+fn solver() -> impl TypedValueParser<Value = Solver> {
+    PossibleValuesParser::new(["projection", "pgs"])
+        .map(|name| if name == "projection" { Solver::Projection } else { Solver::Pgs })
+}
+
+impl RunArguments {
+    fn method(&self, scene: Method) -> Method {
+        Method {
+            hz: self.hz.unwrap_or(scene.hz),
+            substeps: self.substeps.unwrap_or(scene.substeps),
+            iterations: self.iterations.unwrap_or(scene.iterations),
+            integrator: self.integrator.unwrap_or(scene.integrator),
+            solver: self.solver.unwrap_or(scene.solver),
+            warm_start: scene.warm_start && !self.no_warm_start,
+            baumgarte: self.baumgarte.unwrap_or(scene.baumgarte),
+        }
+    }
+
+    /// Where the hash and the summary go: not between rows of CSV.
+    fn says(&self, line: &str) -> std::io::Result<()> {
+        let rows_on_stdout = [&self.csv, &self.measures].into_iter().any(|file| file.as_deref() == Some("-"));
+        if rows_on_stdout { writeln!(std::io::stderr(), "{line}") } else { writeln!(std::io::stdout(), "{line}") }
+    }
+}
+
+pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
+    if arguments.csv.is_some() && arguments.csv == arguments.measures {
+        anyhow::bail!("--csv and --measures cannot both go to the same place: give one of them another file name");
+    }
+    let setup = scene::open(&arguments.scene)?;
+    let method = arguments.method(setup.method);
+    let sampling = Sampling { seconds: arguments.seconds, every: arguments.every.unwrap_or(method.step_seconds()) };
+    let mut trajectory = arguments.csv.as_deref().map(Output::create).transpose()?;
+    let mut measures = arguments.measures.as_deref().map(Output::create).transpose()?;
+    let mut rows = Rows {
+        trajectory: trajectory.as_mut().map(|output| output as &mut dyn Write),
+        measures: measures.as_mut().map(|output| output as &mut dyn Write),
+    };
+    let started = Instant::now();
+    let finish = run(setup.world, method, sampling, &mut rows)?;
+    let spent = started.elapsed().as_secs_f64();
+    [trajectory, measures].into_iter().flatten().try_for_each(|mut output| output.flush())?;
+    if let Some(divergence) = finish.divergence {
+        anyhow::bail!("after {} s: {divergence}", finish.world.time());
+    }
+    let (steps, time) = (finish.steps, finish.world.time());
+    arguments.says(&format!("{}: {steps} steps, {time:.3} s simulated in {spent:.3} s", arguments.scene))?;
+    if arguments.hash {
+        arguments.says(&format!("{:016x}", finish.world.hash()))?;
+    }
+    Ok(())
+}
+
+/// How long to run and when to write [s].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    pub seconds: f64,
+    pub every: f64,
+}
+
+impl Sampling {
+    /// The step nearest to sample `index`, at `hz` steps a second.
+    fn step_of(&self, index: u64, hz: f64) -> u64 {
+        (index as f64 * self.every * hz).round() as u64
+    }
+}
+
+/// What a run ended with.
+#[derive(Clone, Debug)]
+pub struct Finish {
+    /// The last good state.
+    pub world: World,
+    pub steps: u64,
+    /// Set if the run ended early.
+    pub divergence: Option<Divergence>,
+}
+
+/// Steps `world` for `sampling.seconds` and writes rows on the way. Stops early, rows flushed by the caller, on divergence.
+pub fn run(mut world: World, method: Method, sampling: Sampling, rows: &mut Rows) -> anyhow::Result<Finish> {
+    let mut stepper = Stepper::new(method)?.with_clock(nanoseconds);
+    let last = (sampling.seconds * method.hz).round() as u64;
+    rows.headers()?;
+    rows.write(&world, 0.0)?;
+    let mut sample = 1;
+    let mut since_row = MeanTime::default();
+    for step in 1..=last {
+        let report = stepper.step(&mut world);
+        if let Some(divergence) = report.divergence {
+            return Ok(Finish { world, steps: step - 1, divergence: Some(divergence) });
+        }
+        since_row.add(&report);
+        if step >= sampling.step_of(sample, method.hz) {
+            rows.write(&world, since_row.take())?;
+            while sampling.step_of(sample, method.hz) <= step {
+                sample += 1;
+            }
+        }
+    }
+    Ok(Finish { world, steps: last, divergence: None })
+}
+
+/// Mean time of a step since the row before [µs].
+#[derive(Default)]
+struct MeanTime {
+    sum: f64,
+    steps: f64,
+}
+
+impl MeanTime {
+    fn add(&mut self, report: &StepReport) {
+        self.sum += report.step_us;
+        self.steps += 1.0;
+    }
+
+    fn take(&mut self) -> f64 {
+        let mean = self.sum / self.steps;
+        *self = MeanTime::default();
+        mean
+    }
+}
+
+/// Where the rows go.
+pub struct Rows<'a> {
+    /// A row a body: `time,id,x,y,angle,vx,vy,omega`.
+    pub trajectory: Option<&'a mut dyn Write>,
+    /// A row an instant: energies, momenta, violation, penetration, contacts and time of a step.
+    pub measures: Option<&'a mut dyn Write>,
+}
+
+impl Rows<'_> {
+    fn headers(&mut self) -> std::io::Result<()> {
+        if let Some(out) = &mut self.trajectory {
+            writeln!(out, "time,id,x,y,angle,vx,vy,omega")?;
+        }
+        if let Some(out) = &mut self.measures {
+            write!(out, "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,")?;
+            writeln!(out, "violation_max,penetration_max,contacts,step_us")?;
+        }
+        Ok(())
+    }
+
+    /// One instant. `{:?}` writes the fewest digits that are read back to the same bits.
+    fn write(&mut self, world: &World, step_us: f64) -> std::io::Result<()> {
+        if let Some(out) = &mut self.trajectory {
+            for (id, body) in world.bodies().iter() {
+                let (p, v, spin) = (body.position, body.velocity, body.spin.unwrap_or_default());
+                let (time, angle, omega) = (world.time(), spin.angle, spin.omega);
+                writeln!(out, "{time:?},{id},{:?},{:?},{angle:?},{:?},{:?},{omega:?}", p.x, p.y, v.x, v.y)?;
+            }
+        }
+        if let Some(out) = &mut self.measures {
+            let m = Measures::of(world);
+            let (time, momentum, contacts) = (m.time, m.momentum, m.contacts);
+            write!(out, "{time:?},{:?},{:?},{:?},", m.kinetic, m.potential, m.elastic)?;
+            write!(out, "{:?},{:?},{:?},", momentum.x, momentum.y, m.angular_momentum)?;
+            writeln!(out, "{:?},{:?},{contacts},{step_us:?}", m.violation_max, m.penetration_max)?;
+        }
+        Ok(())
+    }
+}
+
+/// A file or standard output, buffered. Its errors name the file and say what to do.
+struct Output {
+    name: String,
+    inner: BufWriter<Box<dyn Write>>,
+}
+
+impl Output {
+    fn create(name: &str) -> anyhow::Result<Output> {
+        let inner: Box<dyn Write> = match name {
+            "-" => Box::new(std::io::stdout()),
+            _ => Box::new(File::create(Path::new(name)).with_context(|| format!("cannot create {name}"))?),
+        };
+        Ok(Output { name: name.to_owned(), inner: BufWriter::new(inner) })
+    }
+
+    fn explain(&self, error: std::io::Error) -> std::io::Error {
+        match error.kind() {
+            ErrorKind::BrokenPipe => error,
+            ErrorKind::StorageFull => {
+                let advice =
+                    format!("cannot write {}: the disk is full; free some space or write elsewhere", self.name);
+                std::io::Error::new(ErrorKind::StorageFull, advice)
+            }
+            kind => std::io::Error::new(kind, format!("cannot write {}: {error}", self.name)),
+        }
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.inner.write(bytes).map_err(|error| self.explain(error))
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.inner.flush().map_err(|error| self.explain(error))
+    }
+}
+
+/// Nanoseconds since the first call.
+fn nanoseconds() -> u64 {
+    static START: OnceLock<Instant> = OnceLock::new();
+    START.get_or_init(Instant::now).elapsed().as_nanos() as u64
+}
