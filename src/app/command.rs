@@ -23,7 +23,10 @@ pub enum Command {
     Drag(f64),
     Tuning(Tuning),
     /// Takes hold of a body at a point of the world; replaces any hold.
-    Grab { body: Id, at: DVec2 },
+    Grab {
+        body: Id,
+        at: DVec2,
+    },
     /// Moves the hold's target [m].
     MoveGrip(DVec2),
     /// Lets go; the body keeps its velocity.

@@ -158,10 +158,8 @@ impl Bodies {
     /// The rotation of body `index`, `None` for a particle.
     pub fn spin(&self, index: usize) -> Option<Spin> {
         let rotor = self.rotor[index];
-        (rotor != NO_ROTOR).then(|| Spin {
-            angle: self.rotors.angle[rotor as usize],
-            omega: self.rotors.omega[rotor as usize],
-        })
+        (rotor != NO_ROTOR)
+            .then(|| Spin { angle: self.rotors.angle[rotor as usize], omega: self.rotors.omega[rotor as usize] })
     }
 
     /// Body `index`, whole.

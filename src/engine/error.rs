@@ -36,11 +36,7 @@ pub(crate) fn check(
     [low, high]: [f64; 2],
     expected: &'static str,
 ) -> Result<(), EngineError> {
-    if value >= low && value <= high {
-        Ok(())
-    } else {
-        Err(EngineError::BadValue { what, value, expected })
-    }
+    if value >= low && value <= high { Ok(()) } else { Err(EngineError::BadValue { what, value, expected }) }
 }
 
 /// `Ok` if both coordinates are finite and within `±LARGEST_COORDINATE`.
