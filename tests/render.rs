@@ -288,6 +288,31 @@ fn what_is_out_of_sight_is_not_drawn() {
 }
 
 #[test]
+fn trails_follow_the_selected_bodies_and_start_anew_with_the_scene() {
+    let mut frame = frame(disc_world(DVec2::ZERO, 0.1));
+    let options = ViewOptions { trails: true, ..bare() };
+    let view = camera(DVec2::ZERO, 100.0, [600, 400]);
+    let mut picture = Picture::new();
+    let mut lines = |frame: &Frame, options: &ViewOptions| {
+        picture.build(frame, &view, options, 1.0);
+        picture.lines().len()
+    };
+    assert_eq!(lines(&frame, &options), 0);
+    let id = frame.world.bodies().id[0];
+    for i in 1..=5 {
+        let position = DVec2::new(0.1 * f64::from(i), 0.0);
+        let mut world = ron::to_string(&frame.world).unwrap();
+        world = world.replacen(&format!("tick:{}", i - 1), &format!("tick:{i}"), 1);
+        frame.world = ron::from_str(&world).unwrap();
+        frame.world.set_body(id, &Body { position, radius: 0.1, ..Body::default() }).unwrap();
+        assert_eq!(lines(&frame, &options), i as usize);
+        assert_eq!(lines(&frame, &options), i as usize, "the same state leaves no second point");
+    }
+    frame.scene = Arc::new(SceneInfo { opened: 1, ..SceneInfo::default() });
+    assert_eq!(lines(&frame, &options), 0);
+}
+
+#[test]
 fn nothing_is_drawn_outside_the_canvas() {
     let Some(gpu) = gpu() else { return };
     let mut picture = Picture::new();

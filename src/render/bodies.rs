@@ -2,7 +2,7 @@
 
 use super::colour::{Colour, viridis};
 use super::picture::{DiscStyle, Picture, Scene};
-use crate::engine::{Id, Motion, World};
+use crate::engine::{DVec2, Motion, World};
 
 /// Least radius of a point mass on the canvas [points]: large enough to be seen and taken hold of.
 pub(super) const LEAST_DOT: f64 = 3.0;
@@ -58,7 +58,7 @@ pub(super) fn draw_bodies(picture: &mut Picture, scene: &Scene<'_>) {
 }
 
 /// The mark of what is fixed to the world: a plate with a bolt in its middle.
-pub(super) fn draw_bolt(picture: &mut Picture, scene: &Scene<'_>, at: crate::engine::DVec2, radius: f64) {
+pub(super) fn draw_bolt(picture: &mut Picture, scene: &Scene<'_>, at: DVec2, radius: f64) {
     let palette = scene.palette;
     let plate = DiscStyle { fill: palette.fixed, stroke: palette.fixed_stroke, stroke_width: 1.5, heading: None };
     picture.disc(&scene.view, at, radius, plate);
@@ -70,11 +70,16 @@ fn body_colour(scene: &Scene<'_>, index: usize) -> Colour {
     if scene.options.speed {
         return viridis(scene.speed.share(bodies.velocity[index].length()));
     }
-    own_colour(scene, bodies.id[index])
+    own_colour(scene, index)
 }
 
-/// The colour that a body keeps: given out in turn, by id.
-pub(super) fn own_colour(scene: &Scene<'_>, id: Id) -> Colour {
+/// The colour that a body keeps: for those that move by themselves given out in turn, by id; a particle that is part of
+/// something (a rope, a cloth) is grey, so that the colours of the tension beside it can be read.
+pub(super) fn own_colour(scene: &Scene<'_>, index: usize) -> Colour {
+    let bodies = scene.frame.world.bodies();
+    if scene.linked[index] && bodies.spin(index).is_none() {
+        return scene.palette.node;
+    }
     let colours = &scene.palette.bodies;
-    colours[(id.0 % colours.len() as u64) as usize]
+    colours[(bodies.id[index].0 % colours.len() as u64) as usize]
 }

@@ -56,6 +56,8 @@ pub struct Palette {
     pub wall_edge: Colour,
     /// Fills of dynamic bodies, given out in turn so that neighbours differ.
     pub bodies: [Colour; 6],
+    /// Particles that are part of something.
+    pub node: Colour,
     pub body_stroke: Colour,
     /// Static bodies and anchors in the world.
     pub fixed: Colour,
@@ -76,8 +78,8 @@ pub struct Palette {
 /// For a dark window. The canvas is darker than every panel.
 const DARK: Palette = Palette {
     background: Colour::hex(0x0F1114),
-    grid_minor: Colour::hex(0x191C21),
-    grid_major: Colour::hex(0x23272E),
+    grid_minor: Colour::hex(0x1A1D22),
+    grid_major: Colour::hex(0x262B32),
     axis: Colour::hex(0x3A414B),
     wall_fill: Colour::hex(0x242930),
     wall_hatch: Colour::hex(0x343B45),
@@ -90,6 +92,7 @@ const DARK: Palette = Palette {
         Colour::hex(0xBD9A8C),
         Colour::hex(0xA3AEB9),
     ],
+    node: Colour::hex(0x8B95A2),
     body_stroke: Colour::hex(0x2B3138),
     fixed: Colour::hex(0x5B6470),
     fixed_stroke: Colour::hex(0xC3CAD3),
@@ -125,6 +128,7 @@ const LIGHT: Palette = Palette {
         Colour::hex(0xA6766A),
         Colour::hex(0x7E8C9A),
     ],
+    node: Colour::hex(0x6D7682),
     body_stroke: Colour::hex(0x39414B),
     fixed: Colour::hex(0x8A929D),
     fixed_stroke: Colour::hex(0x2F363F),
@@ -157,7 +161,8 @@ impl Theme {
     /// Blue against orange-red is told apart with every common colour deficiency (Brewer, Harrower 2003: the pair of the
     /// scheme RdBu); the neutral middle is grey instead of white, because it must stand out from both canvases.
     pub fn diverging(self, share: f64) -> Colour {
-        sample(&self.palette().diverging, (share.clamp(-1.0, 1.0) + 1.0) / 2.0)
+        let share = if share.is_nan() { 0.0 } else { share.clamp(-1.0, 1.0) };
+        sample(&self.palette().diverging, (share + 1.0) / 2.0)
     }
 }
 
@@ -182,7 +187,36 @@ pub fn viridis(share: f64) -> Colour {
 /// Linear interpolation in evenly spaced samples; what is not a number is taken as 0.
 fn sample(samples: &[Colour], share: f64) -> Colour {
     let last = samples.len() - 1;
-    let at = share.clamp(0.0, 1.0) * last as f64;
+    let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+    let at = share * last as f64;
     let index = (at as usize).min(last - 1);
     samples[index].mix(samples[index + 1], at - index as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pull_is_red_push_is_blue_and_nothing_is_grey() {
+        for theme in [Theme::Dark, Theme::Light] {
+            let [[red, _, blue, _], [r, _, b, _]] = [theme.diverging(1.0).0, theme.diverging(-1.0).0];
+            assert!(red > 2 * blue && b > 2 * r, "{theme:?}");
+            let Colour([r, g, b, _]) = theme.diverging(0.0);
+            assert!(r.abs_diff(b) < 20 && r.abs_diff(g) < 20, "{theme:?}");
+            assert_eq!(theme.diverging(7.0), theme.diverging(1.0));
+            assert_eq!(theme.diverging(f64::NAN), theme.diverging(0.0));
+        }
+    }
+
+    #[test]
+    fn viridis_grows_lighter_all_the_way() {
+        let luminance = |share: f64| {
+            let [r, g, b, _] = viridis(share).0.map(f64::from);
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let steps: Vec<f64> = (0..=64).map(|i| luminance(f64::from(i) / 64.0)).collect();
+        assert!(steps.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!((viridis(0.0), viridis(1.0)), (Colour::hex(0x440154), Colour::hex(0xFDE725)));
+    }
 }

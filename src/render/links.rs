@@ -8,7 +8,7 @@ use super::view::single;
 use crate::engine::constraint::WORLD;
 use crate::engine::{DVec2, Kind, World};
 
-/// Width of a rod at most and at least [points]; in between a twentieth of its length.
+/// Width of a rod at most and at least [points]; in between a seventh of its length.
 const ROD_WIDTH: [f64; 2] = [1.5, 4.0];
 /// The same for a rope under tension.
 const ROPE_WIDTH: [f64; 2] = [1.5, 3.0];
@@ -26,7 +26,7 @@ pub(super) fn tension_extreme(world: &World) -> f64 {
     carrying.map(|i| links.tension(i).abs()).filter(|tension| tension.is_finite()).fold(0.0, f64::max)
 }
 
-/// Draws every constraint: springs below, then rods and ropes, then pins and the bolts of fixed ends.
+/// Draws what lies below the bodies: outlines, springs, then rods and ropes.
 pub(super) fn draw_links(picture: &mut Picture, scene: &Scene<'_>) {
     let links = scene.frame.world.constraints();
     let indices = || 0..links.len();
@@ -45,8 +45,12 @@ pub(super) fn draw_links(picture: &mut Picture, scene: &Scene<'_>) {
             Kind::Spring { .. } | Kind::Pin => {}
         }
     }
-    for index in indices() {
-        draw_fixed_end(picture, scene, index);
+}
+
+/// Draws what lies over the bodies: pins, and the bolts of ends fixed to the world.
+pub(super) fn draw_joints(picture: &mut Picture, scene: &Scene<'_>) {
+    for index in 0..scene.frame.world.constraints().len() {
+        draw_joint(picture, scene, index);
     }
 }
 
@@ -66,7 +70,7 @@ fn colour(scene: &Scene<'_>, index: usize) -> Colour {
 
 /// Width of a link of `length` [m] on the canvas [points].
 fn width(scene: &Scene<'_>, length: f64, [least, most]: [f64; 2]) -> f32 {
-    (0.05 * length * scene.view.scale).clamp(least, most) as f32
+    (length / 7.0 * scene.view.scale).clamp(least, most) as f32
 }
 
 fn draw_outline(picture: &mut Picture, scene: &Scene<'_>, index: usize) {
@@ -129,7 +133,7 @@ fn coil(rest: f64, distance: f64) -> Coil {
     // A spring that rests at length 0 has no size of its own; it is given that of a spring a third as long as it is now.
     let rest = if rest > 0.0 { rest } else { distance / 3.0 };
     let windings = (9.0 * rest.sqrt()).round().clamp(4.0, 40.0);
-    Coil { windings, half_width: 0.55 * rest / windings }
+    Coil { windings, half_width: 0.75 * rest / windings }
 }
 
 fn draw_spring(picture: &mut Picture, scene: &Scene<'_>, index: usize, rest: f64) {
@@ -192,7 +196,7 @@ fn draw_long_spring(picture: &mut Picture, scene: &Scene<'_>, [from, to]: [DVec2
     picture.line(&scene.view, [stub, to], wire.width, Ends::Round, wire.colour);
 }
 
-fn draw_fixed_end(picture: &mut Picture, scene: &Scene<'_>, index: usize) {
+fn draw_joint(picture: &mut Picture, scene: &Scene<'_>, index: usize) {
     let links = scene.frame.world.constraints();
     let [from, to] = ends(scene, index);
     if links.kind[index] == Kind::Pin {
@@ -238,5 +242,45 @@ mod tests {
     fn a_taut_rope_does_not_sag() {
         assert_eq!(sag(DVec2::new(3.0, 4.0), 5.0, DVec2::NEG_Y), 0.0);
         assert_eq!(sag(DVec2::new(3.0, 4.0), 4.9, DVec2::NEG_Y), 0.0);
+    }
+
+    #[test]
+    fn a_rod_that_pulls_is_red_and_one_that_pushes_blue() {
+        use crate::app::{Camera, Frame, SceneInfo, Speed};
+        use crate::engine::{Body, Constraint, Method, StepReport};
+        use crate::measure::Measures;
+        use crate::render::{Theme, ViewOptions};
+
+        let mut world = World::new();
+        for y in [0.0, 1.0, 2.0] {
+            let body = world.add_body(&Body::default()).unwrap();
+            let rod = Constraint::to_world(Kind::Rod { length: 1.0 }, body, DVec2::new(1.0, y));
+            world.add_constraint(&rod).unwrap();
+        }
+        // A pull is a negative multiplier.
+        world.constraints.force = [-50.0, 50.0, 0.0].map(|force| DVec2::new(force, 0.0)).to_vec();
+        let frame = Frame {
+            sequence: 0,
+            published: std::time::Instant::now(),
+            scene: std::sync::Arc::new(SceneInfo::default()),
+            world,
+            previous_position: Vec::new(),
+            previous_angle: Vec::new(),
+            method: Method::default(),
+            report: StepReport::default(),
+            measures: Measures::default(),
+            plan: String::new(),
+            running: true,
+            speed: Speed { wanted: 1.0, achieved: 1.0 },
+            fault: None,
+            undo: None,
+            redo: None,
+        };
+        let camera = Camera { centre: DVec2::ZERO, scale: 50.0, size: DVec2::new(400.0, 300.0) };
+        let mut picture = Picture::new();
+        picture.build(&frame, &camera, &ViewOptions { grid: false, ..ViewOptions::default() }, 1.0);
+        let colours: Vec<Colour> = picture.lines().iter().map(|line| line.colour).collect();
+        assert_eq!(colours, [1.0, -1.0, 0.0].map(|share| Theme::Dark.diverging(share)));
+        assert_eq!(picture.tension_range(), 50.0);
     }
 }

@@ -16,6 +16,7 @@ mod overlays;
 pub mod picture;
 mod pipeline;
 mod pose;
+mod surroundings;
 mod trails;
 mod view;
 
@@ -25,7 +26,7 @@ pub use grid::{GridLabel, GridStep, ScaleBar};
 pub use legend::SteadyRange;
 pub use offscreen::{Image, OffscreenError};
 pub use options::{Extra, ViewOptions};
-pub use picture::Picture;
+pub use picture::{FORCE_TICK, Picture, VELOCITY_ARROW};
 
 use bytemuck::{Pod, Zeroable};
 use marks::MarkKind;

@@ -2,17 +2,18 @@
 
 use super::bodies::{draw_bodies, speed_extreme};
 use super::colour::{Colour, Palette, Theme};
-use super::grid::{GridStep, lines};
 use super::legend::SteadyRange;
-use super::links::{draw_links, tension_extreme};
-use super::marks::{BoxMark, DiscMark, Ends, HATCH_PERIOD, LineMark, MarkKind, SpringMark};
+use super::links::{draw_joints, draw_links, tension_extreme};
+use super::marks::{BoxMark, DiscMark, Ends, LineMark, MarkKind, SpringMark};
 use super::options::ViewOptions;
 use super::overlays::{draw_contacts, draw_extras, draw_fault, draw_grip, draw_velocities, force_extreme};
 use super::pose::Pose;
+use super::surroundings::{draw_grid, draw_walls};
 use super::trails::{Trails, draw_trails};
 use super::view::{View, single};
 use crate::app::{Camera, Frame};
-use crate::engine::{DVec2, Id, Shape};
+use crate::engine::constraint::WORLD;
+use crate::engine::{DVec2, Id, World};
 use std::ops::Range;
 
 /// Consecutive marks of one kind: one draw call.
@@ -34,6 +35,30 @@ pub struct Picture {
     /// Of |tension| [N], speed [m/s] and contact force [N].
     ranges: [SteadyRange; 3],
     trails: Trails,
+    notes: Notes,
+}
+
+/// What is looked up for each body, gathered once a picture.
+#[derive(Clone, Debug, Default)]
+struct Notes {
+    /// The selection, ascending.
+    selected: Vec<Id>,
+    /// By body: whether a rod, rope, spring or pin holds it.
+    linked: Vec<bool>,
+}
+
+impl Notes {
+    fn gather(&mut self, world: &World, options: &ViewOptions) {
+        self.selected.clear();
+        self.selected.extend_from_slice(&options.selected);
+        self.selected.sort_unstable();
+        self.linked.clear();
+        self.linked.resize(world.bodies().len(), false);
+        let links = world.constraints();
+        for body in links.a.iter().chain(&links.b).filter(|body| **body != WORLD) {
+            self.linked[*body as usize] = true;
+        }
+    }
 }
 
 /// What everything that draws is given: the frame, where it stands, how it is seen.
@@ -43,6 +68,8 @@ pub(super) struct Scene<'a> {
     pub pose: Pose<'a>,
     pub view: View,
     pub options: &'a ViewOptions,
+    pub linked: &'a [bool],
+    selected: &'a [Id],
     pub palette: &'static Palette,
     pub tension: SteadyRange,
     pub speed: SteadyRange,
@@ -51,7 +78,7 @@ pub(super) struct Scene<'a> {
 
 impl Scene<'_> {
     pub(super) fn is_selected(&self, id: Id) -> bool {
-        self.options.selected.contains(&id)
+        self.selected.binary_search(&id).is_ok()
     }
 
     /// Colour and width [points] of the outline of something selected or under the cursor.
@@ -78,24 +105,38 @@ impl Picture {
             range.update(extreme, frame.published);
         }
         let [tension, speed, force] = self.ranges;
-        let palette = options.theme.palette();
-        let view = View::new(camera);
-        let scene = Scene { frame, pose: Pose::new(frame, alpha), view, options, palette, tension, speed, force };
-        if options.grid {
-            self.draw_grid(&scene);
-        }
-        self.draw_walls(&scene);
-        let mut trails = std::mem::take(&mut self.trails);
-        trails.record(frame, options);
-        draw_trails(self, &trails, &scene);
-        self.trails = trails;
-        draw_links(self, &scene);
-        draw_bodies(self, &scene);
-        draw_contacts(self, &scene);
-        draw_velocities(self, &scene);
-        draw_fault(self, &scene);
-        draw_grip(self, &scene);
-        draw_extras(self, &scene);
+        let (mut trails, mut notes) = (std::mem::take(&mut self.trails), std::mem::take(&mut self.notes));
+        notes.gather(&frame.world, options);
+        let scene = Scene {
+            frame,
+            pose: Pose::new(frame, alpha),
+            view: View::new(camera),
+            options,
+            linked: &notes.linked,
+            selected: &notes.selected,
+            palette: options.theme.palette(),
+            tension,
+            speed,
+            force,
+        };
+        trails.record(&scene);
+        self.draw(&scene, &trails);
+        (self.trails, self.notes) = (trails, notes);
+    }
+
+    /// Every layer, from the lowest to the topmost.
+    fn draw(&mut self, scene: &Scene<'_>, trails: &Trails) {
+        draw_grid(self, scene);
+        draw_walls(self, scene);
+        draw_trails(self, trails, scene);
+        draw_links(self, scene);
+        draw_bodies(self, scene);
+        draw_joints(self, scene);
+        draw_contacts(self, scene);
+        draw_velocities(self, scene);
+        draw_fault(self, scene);
+        draw_grip(self, scene);
+        draw_extras(self, scene);
     }
 
     /// Takes every mark away, and sets the theme; ranges and trails stay.
@@ -118,12 +159,12 @@ impl Picture {
         self.ranges[0].top()
     }
 
-    /// Speed at the upper end of the colour map [m/s], and of an arrow of [`super::picture::VELOCITY_ARROW`].
+    /// Speed at the upper end of the colour map [m/s], and of a velocity arrow of length [`VELOCITY_ARROW`].
     pub fn speed_range(&self) -> f64 {
         self.ranges[1].top()
     }
 
-    /// Contact force [N] at which a contact's tick is [`super::picture::FORCE_TICK`] long.
+    /// Contact force [N] at which a contact's tick is [`FORCE_TICK`] long.
     pub fn force_range(&self) -> f64 {
         self.ranges[2].top()
     }
@@ -228,61 +269,6 @@ impl Picture {
         let back = -along / length * BARB.0.min(BARB.1 * length);
         for turn in [0.5, -0.5] {
             self.line(view, [to, to + DVec2::from_angle(turn).rotate(back)], WIDTH, Ends::Round, colour);
-        }
-    }
-
-    fn draw_grid(&mut self, scene: &Scene<'_>) {
-        let view = &scene.view;
-        let step = GridStep::at_scale(view.scale);
-        let palette = scene.palette;
-        let minor = palette.grid_minor.with_opacity(step.minor_opacity);
-        // Axes last, so that they lie on top where lines cross.
-        for (distance, colour, all) in
-            [(step.minor, minor, true), (step.major, palette.grid_major, true), (step.major, palette.axis, false)]
-        {
-            let (low, high) = view.bounds();
-            for x in lines(low.x, high.x, distance).filter(|k| all || *k == 0.0).map(|k| k * distance) {
-                let ends = [DVec2::new(x, low.y), DVec2::new(x, high.y)].map(|end| view.place(end));
-                self.line(view, ends, 1.0, Ends::Crisp, colour);
-            }
-            for y in lines(low.y, high.y, distance).filter(|k| all || *k == 0.0).map(|k| k * distance) {
-                let ends = [DVec2::new(low.x, y), DVec2::new(high.x, y)].map(|end| view.place(end));
-                self.line(view, ends, 1.0, Ends::Crisp, colour);
-            }
-        }
-    }
-
-    fn draw_walls(&mut self, scene: &Scene<'_>) {
-        let (view, palette) = (&scene.view, scene.palette);
-        for (id, wall) in scene.frame.world.wall_ids().iter().zip(scene.frame.world.walls()) {
-            let outline = scene.outline(*id);
-            match wall.shape {
-                Shape::Segment { from, to } => {
-                    let ends = [view.place(from), view.place(to)];
-                    if let Some((colour, width)) = outline {
-                        self.line(view, ends, 3.0 + 2.0 * width, Ends::Round, colour);
-                    }
-                    self.line(view, ends, 3.0, Ends::Round, palette.wall_edge);
-                }
-                Shape::Box { min, max } => {
-                    let (low, high) = (view.place(min), view.place(max));
-                    // The hatching is fixed to the lower left corner; the shader counts along (1, 1) in pixels, y down.
-                    let phase = -(low.x + low.y).rem_euclid(HATCH_PERIOD);
-                    let Some((low, high)) = view.clip_box(low, high) else {
-                        continue;
-                    };
-                    let (stroke, stroke_width) = outline.unwrap_or((palette.wall_edge, 1.5));
-                    self.push_box(BoxMark {
-                        low: single(low),
-                        high: single(high),
-                        stroke_width,
-                        phase: phase as f32,
-                        fill: palette.wall_fill,
-                        stroke,
-                        hatch: palette.wall_hatch,
-                    });
-                }
-            }
         }
     }
 }

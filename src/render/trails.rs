@@ -2,9 +2,7 @@
 
 use super::bodies::own_colour;
 use super::marks::Ends;
-use super::options::ViewOptions;
 use super::picture::{Picture, Scene};
-use crate::app::Frame;
 use crate::engine::{DVec2, Id, Motion};
 use std::collections::{BTreeMap, VecDeque};
 
@@ -25,9 +23,10 @@ pub(super) struct Trails {
 
 impl Trails {
     /// Takes note of a frame, once: of the selected bodies, or of all if none is selected.
-    pub(super) fn record(&mut self, frame: &Frame, options: &ViewOptions) {
+    pub(super) fn record(&mut self, scene: &Scene<'_>) {
+        let (frame, options) = (scene.frame, scene.options);
         let (opened, tick) = (frame.scene.opened, frame.world.tick());
-        let continues = self.last.is_some_and(|(scene, last)| scene == opened && last <= tick);
+        let continues = self.last.is_some_and(|(open, last)| open == opened && last <= tick);
         if !options.trails || !continues {
             self.paths.clear();
         }
@@ -39,7 +38,7 @@ impl Trails {
         let bodies = frame.world.bodies();
         let any_selected = options.selected.iter().any(|id| bodies.index_of(*id).is_some());
         let wanted = |index: &usize| {
-            bodies.motion[*index] != Motion::Static && (!any_selected || options.selected.contains(&bodies.id[*index]))
+            bodies.motion[*index] != Motion::Static && (!any_selected || scene.is_selected(bodies.id[*index]))
         };
         let count = (0..bodies.len()).filter(wanted).count();
         let capacity = (ALL_POINTS / count.max(1)).clamp(SHORTEST, LONGEST);
@@ -61,7 +60,7 @@ pub(super) fn draw_trails(picture: &mut Picture, trails: &Trails, scene: &Scene<
         let Some(index) = bodies.index_of(*id) else {
             continue;
         };
-        let colour = own_colour(scene, *id);
+        let colour = own_colour(scene, index);
         // The newest point may lie ahead of the interpolated body; the trail ends at the body instead.
         let past = path.len().saturating_sub(1);
         let mut points = path.iter().take(past).copied().chain([scene.pose.position(index)]).enumerate();
