@@ -13,4 +13,6 @@ pub mod app;
 pub mod cli;
 pub mod engine;
 pub mod measure;
+#[cfg(feature = "desktop")]
+pub mod render;
 pub mod scene;
