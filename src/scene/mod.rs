@@ -1,4 +1,29 @@
 //! Scenes: the file format, its errors, its generators, and the scenes that come with the program.
+//!
+//! A scene file is RON (`scenes/*.ron`): a [`Document`] lists bodies, constraints, walls and generators by kind, and
+//! [`Document::build`] turns it into a [`Setup`]. A new kind of body or constraint is a new variant in `document.rs` and a
+//! new arm in `build.rs`; a new generator is a new file under `generator/`.
+
+pub mod build;
+pub mod capture;
+pub mod document;
+pub mod error;
+pub mod generator;
+mod locate;
+mod names;
+mod nearest;
+mod random;
+mod read;
+mod save;
+mod shipped;
+
+pub use capture::capture;
+pub use document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, View, WallEntry};
+pub use error::{Place, SceneError};
+pub use generator::Generator;
+pub use read::{LARGEST_FILE, open, parse, read_file};
+pub use save::{save, to_ron};
+pub use shipped::{Shipped, shipped};
 
 use crate::engine::{DVec2, Method, World};
 

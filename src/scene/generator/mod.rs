@@ -1,0 +1,154 @@
+//! Generators: many bodies and constraints from one line of a scene. One file a generator.
+
+mod bridge;
+mod cloth;
+mod cradle;
+mod grid;
+mod link;
+mod net;
+mod pile;
+mod rope;
+mod soft_body;
+mod stack;
+
+pub use bridge::Bridge;
+pub use cloth::Cloth;
+pub use cradle::Cradle;
+pub use grid::Pins;
+pub use link::Link;
+pub use net::Net;
+pub use pile::Pile;
+pub use rope::Rope;
+pub use soft_body::{Filling, SoftBody};
+pub use stack::Stack;
+
+use super::build::MOST_BODIES;
+use super::error::{Fault, SceneError};
+pub use super::names::Layout;
+use crate::engine::{Id, World};
+use serde::{Deserialize, Serialize};
+
+/// A generator with its parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Generator {
+    Rope(Rope),
+    Bridge(Bridge),
+    Cloth(Cloth),
+    SoftBody(SoftBody),
+    Net(Net),
+    Stack(Stack),
+    Pile(Pile),
+    Cradle(Cradle),
+}
+
+/// What every generator can do.
+trait Generate {
+    /// The name by which constraints refer to its nodes.
+    fn name(&self) -> Option<&str>;
+    /// How its nodes are numbered, hence how many there are; parameters may still be wrong.
+    fn layout(&self) -> Layout;
+    /// Refuses parameters from which nothing sensible can be built.
+    fn check(&self) -> Result<(), Fault>;
+    /// Adds its bodies, in the order of its layout, and its constraints.
+    fn build(&self, world: &mut World) -> Result<(), Fault>;
+}
+
+impl Generator {
+    fn kind(&self) -> &dyn Generate {
+        match self {
+            Generator::Rope(rope) => rope,
+            Generator::Bridge(bridge) => bridge,
+            Generator::Cloth(cloth) => cloth,
+            Generator::SoftBody(soft_body) => soft_body,
+            Generator::Net(net) => net,
+            Generator::Stack(stack) => stack,
+            Generator::Pile(pile) => pile,
+            Generator::Cradle(cradle) => cradle,
+        }
+    }
+
+    /// The name by which constraints refer to its nodes.
+    pub fn name(&self) -> Option<&str> {
+        self.kind().name()
+    }
+
+    /// Number of bodies that it makes.
+    pub fn body_count(&self) -> u64 {
+        match self.kind().layout() {
+            Layout::Line(count) => count as u64,
+            Layout::Grid { columns, rows } => (columns as u64).saturating_mul(rows as u64),
+        }
+    }
+
+    /// Adds everything to a world and returns the new bodies, or leaves the world as it was.
+    pub fn add_to(&self, world: &mut World) -> Result<Vec<Id>, SceneError> {
+        let first = world.bodies().len();
+        if self.body_count() > MOST_BODIES {
+            return Err(Fault::value("count", self.body_count() as f64, format!("at most {MOST_BODIES} bodies")).into());
+        }
+        let built = self.build(world);
+        let new = world.bodies().id[first..].to_vec();
+        match built {
+            Ok(_) => Ok(new),
+            Err(fault) => {
+                world.remove_bodies(&new);
+                Err(fault.into())
+            }
+        }
+    }
+
+    pub(super) fn build(&self, world: &mut World) -> Result<Layout, Fault> {
+        self.kind().check()?;
+        self.kind().build(world)?;
+        Ok(self.kind().layout())
+    }
+}
+
+/// `Ok` if a parameter lies within a range.
+fn check_range(field: &'static str, value: f64, [low, high]: [f64; 2], unit: &str) -> Result<(), Fault> {
+    if value >= low && value <= high {
+        return Ok(());
+    }
+    Err(Fault::value(
+        field,
+        value,
+        format!("a value between {low} and {high}{}{unit}", if unit.is_empty() { "" } else { " " }),
+    ))
+}
+
+/// A collision group that no body has yet: its members do not touch each other.
+fn fresh_group(world: &World) -> u32 {
+    let mut used: Vec<u32> = world.bodies().group.clone();
+    used.sort_unstable();
+    used.dedup();
+    // Sorted and distinct: the first gap after 0 is free. There are fewer bodies than numbers.
+    used.iter()
+        .filter(|group| **group > 0)
+        .zip(1..)
+        .find(|(group, wanted)| **group != *wanted)
+        .map_or_else(|| used.iter().filter(|group| **group > 0).count() as u32 + 1, |(_, wanted)| wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Body;
+
+    #[test]
+    fn a_fresh_group_is_the_smallest_that_nobody_has() {
+        let mut world = World::new();
+        assert_eq!(fresh_group(&world), 1);
+        for group in [u32::MAX, 0, 1, 2, 4, 2] {
+            world.add_body(&Body { group, ..Body::default() }).expect("a sound body");
+        }
+        assert_eq!(fresh_group(&world), 3);
+    }
+
+    #[test]
+    fn a_generator_that_fails_leaves_the_world_as_it_was() {
+        let mut world = World::new();
+        let rope = Generator::Rope(Rope { mass: 1e13, ..Rope::default() });
+        assert!(rope.add_to(&mut world).is_err());
+        assert!(world.bodies().is_empty() && world.constraints().is_empty());
+    }
+}

@@ -1,0 +1,72 @@
+//! A net: a grid of particles joined by rods (or ropes, or springs), without diagonals.
+
+use super::super::error::Fault;
+use super::grid::Grid;
+use super::{Generate, Layout, Link, Pins, check_range, fresh_group};
+use crate::engine::{Body, DVec2, World};
+use serde::{Deserialize, Serialize};
+
+/// `columns × rows` nodes `name.column.row`, the row 0 at the top. Its nodes do not touch each other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Net {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Upper left node [m].
+    pub corner: DVec2,
+    pub columns: u32,
+    pub rows: u32,
+    /// Distance of neighbours [m].
+    pub spacing: f64,
+    pub link: Link,
+    pub pins: Pins,
+    /// Mass of a node [kg].
+    pub mass: f64,
+    /// Radius of a node [m].
+    pub radius: f64,
+    /// Whether it can touch other things.
+    pub collides: bool,
+}
+
+impl Default for Net {
+    fn default() -> Self {
+        Net {
+            name: None,
+            corner: DVec2::ZERO,
+            columns: 12,
+            rows: 8,
+            spacing: 0.25,
+            link: Link::Rod,
+            pins: Pins::Corners,
+            mass: 0.05,
+            radius: 0.04,
+            collides: true,
+        }
+    }
+}
+
+impl Generate for Net {
+    fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+
+    fn layout(&self) -> Layout {
+        Layout::Grid { columns: self.columns as usize, rows: self.rows as usize }
+    }
+
+    fn check(&self) -> Result<(), Fault> {
+        check_range("columns", f64::from(self.columns), [1.0, 1e6], "")?;
+        check_range("rows", f64::from(self.rows), [1.0, 1e6], "")?;
+        check_range("spacing", self.spacing, [1e-9, 1e6], "m")
+    }
+
+    fn build(&self, world: &mut World) -> Result<(), Fault> {
+        let Net { corner, columns, rows, spacing, pins, .. } = *self;
+        let grid = Grid { corner, columns, rows, spacing, pins };
+        let group = fresh_group(world);
+        let node = Body { mass: self.mass, radius: self.radius, collides: self.collides, group, ..Body::default() };
+        let nodes = grid.add_nodes(world, &node)?;
+        grid.join(world, &nodes, [1, 0], |length| self.link.over(length))?;
+        grid.join(world, &nodes, [0, 1], |length| self.link.over(length))
+    }
+}
