@@ -19,4 +19,5 @@ pub use frame::{Frame, SceneInfo, Speed};
 pub use keys::Action;
 pub use plot_data::{Plots, Sample};
 pub use session::Session;
+pub use simulation::frame_after;
 pub use tools::{Button, Feedback, Join, Modifiers, Phase, PointerEvent, Tool, Tools};

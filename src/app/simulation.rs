@@ -270,6 +270,16 @@ impl Simulation {
     }
 }
 
+/// The frame of a scene after `seconds` of simulated time (rounded to whole steps), stepped here and now, without a thread. If
+/// the run diverges, the last good one, with the fault.
+pub fn frame_after(setup: Setup, seconds: f64) -> Arc<Frame> {
+    let mut simulation = Simulation::new(setup);
+    while simulation.running && simulation.time() + 0.5 * simulation.step_seconds() <= seconds {
+        simulation.step();
+    }
+    simulation.publish(0, simulation.speed())
+}
+
 /// A stepper with a clock; if the method cannot be used, the default one and why.
 fn stepper(method: Method) -> (Stepper, Option<String>) {
     match Stepper::new(method) {

@@ -1,11 +1,10 @@
 //! The event loop's side of the window: opens it, hands events to the panels, and draws when there is a reason to.
 
-use super::backdrop::Backdrop;
+use super::screen::{Screen, View};
 use super::timing::Timing;
 use super::{interpolation, scene_entries};
 use crate::app::{Camera, Command, Frame, Session};
 use crate::engine::DVec2;
-use crate::render::{Gpu, ViewOptions};
 use crate::scene::{SceneError, Setup};
 use crate::ui::{Shell, ShellOutput};
 use anyhow::Context;
@@ -23,6 +22,9 @@ use winit::window::{Fullscreen, Window, WindowId};
 const SIZE: LogicalSize<f64> = LogicalSize::new(1280.0, 800.0);
 /// Refresh rate of a monitor that does not tell [Hz].
 const USUAL_REFRESH: f64 = 60.0;
+
+/// How long to wait when the screen takes no frame, because the window is covered, say.
+const HIDDEN_DELAY: Duration = Duration::from_millis(100);
 
 /// What wakes the loop from outside.
 pub enum Wake {
@@ -50,11 +52,7 @@ pub struct Desktop {
 
 impl Desktop {
     /// A desktop that will open its window when the loop starts.
-    pub fn new(
-        proxy: EventLoopProxy<Wake>,
-        setup: JoinHandle<Result<Setup, SceneError>>,
-        timing: Timing,
-    ) -> Desktop {
+    pub fn new(proxy: EventLoopProxy<Wake>, setup: JoinHandle<Result<Setup, SceneError>>, timing: Timing) -> Desktop {
         Desktop { proxy, setup: Some(setup), sandbox: None, failure: None, timing }
     }
 
@@ -64,7 +62,11 @@ impl Desktop {
         self.failure.map_or(Ok(()), Err)
     }
 
-    fn open(&mut self, event_loop: &ActiveEventLoop, setup: JoinHandle<Result<Setup, SceneError>>) -> anyhow::Result<Sandbox> {
+    fn open(
+        &mut self,
+        event_loop: &ActiveEventLoop,
+        setup: JoinHandle<Result<Setup, SceneError>>,
+    ) -> anyhow::Result<Sandbox> {
         // Invisible until the screen reader is connected, which must not happen to a visible window.
         let attributes = Window::default_attributes().with_title("Tautline").with_inner_size(SIZE).with_visible(false);
         let window = Arc::new(event_loop.create_window(attributes).context("no window can be opened")?);
@@ -73,8 +75,8 @@ impl Desktop {
         let mut input = egui_winit::State::new(egui.clone(), egui::ViewportId::ROOT, &display, None, None, None);
         input.init_accesskit(event_loop, &window, self.proxy.clone());
         window.set_visible(true);
-        let backdrop = Backdrop::new(window.clone(), display)?;
-        input.set_max_texture_side(backdrop.gpu().device.limits().max_texture_dimension_2d as usize);
+        let screen = Screen::new(window.clone(), display)?;
+        input.set_max_texture_side(screen.max_texture_side());
         let setup = setup.join().map_err(|_| anyhow::anyhow!("reading the scene failed inside"))??;
         let proxy = self.proxy.clone();
         let wake = move || {
@@ -86,7 +88,7 @@ impl Desktop {
             window,
             egui,
             input,
-            backdrop,
+            screen,
             session,
             shell: Shell::new(scene_entries()),
             camera: Camera { centre: DVec2::ZERO, scale: 100.0, size: DVec2::new(SIZE.width, SIZE.height) },
@@ -149,7 +151,7 @@ impl ApplicationHandler<Wake> for Desktop {
 /// The open window and all that lives with it.
 struct Sandbox {
     // Dropped in this order: the surface before the window it draws to.
-    backdrop: Backdrop,
+    screen: Screen,
     input: egui_winit::State,
     egui: egui::Context,
     shell: Shell,
@@ -172,7 +174,7 @@ impl Sandbox {
 
     fn handle(&mut self, event: &WindowEvent, timing: &mut Timing) {
         match event {
-            WindowEvent::Resized(size) => self.backdrop.resize([size.width, size.height]),
+            WindowEvent::Resized(size) => self.screen.resize([size.width, size.height]),
             WindowEvent::DroppedFile(path) => self.session.send(Command::Open(path.display().to_string())),
             WindowEvent::KeyboardInput { .. } | WindowEvent::CursorMoved { .. } | WindowEvent::MouseInput { .. } => {
                 timing.input();
@@ -190,7 +192,8 @@ impl Sandbox {
         let frame = self.session.frame();
         self.retitle(&frame);
         let input = self.input.take_egui_input(&self.window);
-        let (mut output, shown) = show(&self.egui, input, &mut self.shell, &frame, &mut self.camera, &self.backdrop);
+        let (mut output, shown) =
+            show(&self.egui, input, &mut self.shell, &frame, &mut self.camera, self.screen.ranges());
         timing.panels(begun.elapsed());
         self.input.handle_platform_output_with_event_loop(
             &self.window,
@@ -205,13 +208,15 @@ impl Sandbox {
             self.window.set_fullscreen(full.then_some(Fullscreen::Borderless(None)));
         }
         let share = interpolation(&frame, frame.published.elapsed().as_secs_f64());
-        let scene = super::backdrop::Scene { frame: &frame, camera: &self.camera, view: &shown.view, share };
-        let delay = output.viewport_output.get(&egui::ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
-        self.window.pre_present_notify();
-        self.backdrop.draw(&self.egui, output, &scene, shown.canvas)?;
+        let view = View { frame: &frame, camera: &self.camera, options: &shown.view, share, canvas: shown.canvas };
+        let delay =
+            output.viewport_output.get(&egui::ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
+        self.drawn = begun;
+        if !self.screen.draw(&self.egui, output, &view)? {
+            return Ok(self.next(HIDDEN_DELAY.min(delay)));
+        }
         timing.frame();
         let moving = frame.running && share < 1.0;
-        self.drawn = begun;
         Ok(self.next(if moving { Duration::ZERO } else { delay }))
     }
 

@@ -1,15 +1,14 @@
 //! The desktop window: winit's loop, which ties the simulation thread, the panels and the picture together, and the same
 //! picture off screen.
 
-mod backdrop;
 mod desktop;
 mod panels;
+mod screen;
 mod shot;
 mod timing;
 
 pub use shot::{ShotOptions, shot};
 
-use crate::render::ViewOptions;
 use crate::scene;
 use crate::ui::SceneEntry;
 use anyhow::{Context, anyhow};

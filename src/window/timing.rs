@@ -19,7 +19,14 @@ impl Timing {
     /// Starts the clock.
     pub fn start() -> Timing {
         let wanted = std::env::var_os("TAUTLINE_TIMING").is_some_and(|value| !value.is_empty() && value != "0");
-        Timing { start: Instant::now(), wanted, first_frame: None, panels: Vec::new(), input: None, answers: Vec::new() }
+        Timing {
+            start: Instant::now(),
+            wanted,
+            first_frame: None,
+            panels: Vec::new(),
+            input: None,
+            answers: Vec::new(),
+        }
     }
 
     /// An input came.
@@ -56,7 +63,8 @@ impl Timing {
         }
         for (name, times) in [("panels", &mut self.panels), ("input to frame", &mut self.answers)] {
             times.sort_unstable_by(f64::total_cmp);
-            let part = |share: f64| times.get(((times.len() as f64 * share) as usize).min(times.len().saturating_sub(1)));
+            let part =
+                |share: f64| times.get(((times.len() as f64 * share) as usize).min(times.len().saturating_sub(1)));
             if let (Some(median), Some(p99), Some(worst)) = (part(0.5), part(0.99), part(1.0)) {
                 let count = times.len();
                 eprintln!("{name}: median {median:.2} ms, 99 % within {p99:.2} ms, worst {worst:.2} ms of {count}");
