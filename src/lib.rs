@@ -11,4 +11,6 @@
 pub mod app;
 pub mod engine;
 pub mod measure;
+#[cfg(feature = "desktop")]
+pub mod render;
 pub mod scene;

@@ -1,0 +1,80 @@
+//! Bodies: particles as dots, discs with a spoke, static ones bolted to the canvas.
+
+use super::colour::{Colour, viridis};
+use super::picture::{DiscStyle, Picture, Scene};
+use crate::engine::{Id, Motion, World};
+
+/// Least radius of a point mass on the canvas [points]: large enough to be seen and taken hold of.
+pub(super) const LEAST_DOT: f64 = 3.0;
+/// Least radius of a body that has one [points]: it shrinks with the view, but never vanishes.
+const LEAST_DISC: f64 = 1.5;
+/// Least radius of a static body, so that its bolt can be told [points].
+const LEAST_BOLT: f64 = 5.0;
+
+/// Radius of body `index` on the canvas [points].
+pub(super) fn drawn_radius(world: &World, index: usize, scale: f64) -> f64 {
+    let bodies = world.bodies();
+    let least = match (bodies.motion[index], bodies.radius[index]) {
+        (Motion::Static, _) => LEAST_BOLT,
+        (_, 0.0) => LEAST_DOT,
+        _ => LEAST_DISC,
+    };
+    (bodies.radius[index] * scale).max(least)
+}
+
+/// The largest speed of a body [m/s].
+pub(super) fn speed_extreme(world: &World) -> f64 {
+    world.bodies().velocity.iter().fold(0.0, |largest, velocity| velocity.length().max(largest))
+}
+
+/// Draws every body, and the outlines of those selected or under the cursor.
+pub(super) fn draw_bodies(picture: &mut Picture, scene: &Scene<'_>) {
+    let world = &scene.frame.world;
+    let bodies = world.bodies();
+    for index in 0..bodies.len() {
+        let at = scene.view.place(scene.pose.position(index));
+        let radius = drawn_radius(world, index, scene.view.scale);
+        if bodies.motion[index] == Motion::Static {
+            draw_bolt(picture, scene, at, radius);
+        } else {
+            let stroke_width = (0.08 * radius).clamp(0.75, 2.0) as f32;
+            let fill = body_colour(scene, index);
+            let style = DiscStyle {
+                fill,
+                stroke: fill.mix(scene.palette.body_stroke, 0.75),
+                stroke_width,
+                heading: scene.pose.angle(index).filter(|_| radius > 4.0),
+            };
+            picture.disc(&scene.view, at, radius, style);
+            if bodies.motion[index] == Motion::Kinematic {
+                picture.disc(&scene.view, at, 0.6 * radius, DiscStyle::ring(scene.palette.fixed_stroke, stroke_width));
+            }
+        }
+        if let Some((colour, width)) = scene.outline(bodies.id[index]) {
+            let ring = radius + 2.0 + f64::from(width);
+            picture.disc(&scene.view, at, ring, DiscStyle::ring(colour, width));
+        }
+    }
+}
+
+/// The mark of what is fixed to the world: a plate with a bolt in its middle.
+pub(super) fn draw_bolt(picture: &mut Picture, scene: &Scene<'_>, at: crate::engine::DVec2, radius: f64) {
+    let palette = scene.palette;
+    let plate = DiscStyle { fill: palette.fixed, stroke: palette.fixed_stroke, stroke_width: 1.5, heading: None };
+    picture.disc(&scene.view, at, radius, plate);
+    picture.disc(&scene.view, at, (0.3 * radius).min(4.0), DiscStyle::plain(palette.fixed_stroke));
+}
+
+fn body_colour(scene: &Scene<'_>, index: usize) -> Colour {
+    let bodies = scene.frame.world.bodies();
+    if scene.options.speed {
+        return viridis(scene.speed.share(bodies.velocity[index].length()));
+    }
+    own_colour(scene, bodies.id[index])
+}
+
+/// The colour that a body keeps: given out in turn, by id.
+pub(super) fn own_colour(scene: &Scene<'_>, id: Id) -> Colour {
+    let colours = &scene.palette.bodies;
+    colours[(id.0 % colours.len() as u64) as usize]
+}

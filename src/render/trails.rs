@@ -1,0 +1,78 @@
+//! Trails: where bodies were a moment ago, fading.
+
+use super::bodies::own_colour;
+use super::marks::Ends;
+use super::options::ViewOptions;
+use super::picture::{Picture, Scene};
+use crate::app::Frame;
+use crate::engine::{DVec2, Id, Motion};
+use std::collections::{BTreeMap, VecDeque};
+
+/// Points of all trails together: what draws without being felt.
+const ALL_POINTS: usize = 20_000;
+/// Points of one trail: four seconds at 60 states a second.
+const LONGEST: usize = 240;
+/// Points of one trail in a crowd.
+const SHORTEST: usize = 8;
+
+/// Past positions of bodies, oldest first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Trails {
+    paths: BTreeMap<Id, VecDeque<DVec2>>,
+    /// Opening and tick of the frame recorded last.
+    last: Option<(u64, u64)>,
+}
+
+impl Trails {
+    /// Takes note of a frame, once: of the selected bodies, or of all if none is selected.
+    pub(super) fn record(&mut self, frame: &Frame, options: &ViewOptions) {
+        let (opened, tick) = (frame.scene.opened, frame.world.tick());
+        let continues = self.last.is_some_and(|(scene, last)| scene == opened && last <= tick);
+        if !options.trails || !continues {
+            self.paths.clear();
+        }
+        let seen = options.trails && continues && self.last == Some((opened, tick));
+        self.last = options.trails.then_some((opened, tick));
+        if !options.trails || seen {
+            return;
+        }
+        let bodies = frame.world.bodies();
+        let any_selected = options.selected.iter().any(|id| bodies.index_of(*id).is_some());
+        let wanted = |index: &usize| {
+            bodies.motion[*index] != Motion::Static && (!any_selected || options.selected.contains(&bodies.id[*index]))
+        };
+        let count = (0..bodies.len()).filter(wanted).count();
+        let capacity = (ALL_POINTS / count.max(1)).clamp(SHORTEST, LONGEST);
+        self.paths.retain(|id, _| bodies.index_of(*id).is_some_and(|index| wanted(&index)));
+        for index in (0..bodies.len()).filter(wanted) {
+            let path = self.paths.entry(bodies.id[index]).or_default();
+            path.push_back(bodies.position[index]);
+            while path.len() > capacity {
+                path.pop_front();
+            }
+        }
+    }
+}
+
+/// Draws the trails, ending where the bodies are drawn.
+pub(super) fn draw_trails(picture: &mut Picture, trails: &Trails, scene: &Scene<'_>) {
+    let bodies = scene.frame.world.bodies();
+    for (id, path) in &trails.paths {
+        let Some(index) = bodies.index_of(*id) else {
+            continue;
+        };
+        let colour = own_colour(scene, *id);
+        // The newest point may lie ahead of the interpolated body; the trail ends at the body instead.
+        let past = path.len().saturating_sub(1);
+        let mut points = path.iter().take(past).copied().chain([scene.pose.position(index)]).enumerate();
+        let Some((_, mut last)) = points.next().map(|(i, point)| (i, scene.view.place(point))) else {
+            continue;
+        };
+        for (i, point) in points {
+            let point = scene.view.place(point);
+            let age = i as f64 / past as f64;
+            picture.line(&scene.view, [last, point], 2.0, Ends::Square, colour.with_opacity(0.7 * age * age));
+            last = point;
+        }
+    }
+}
