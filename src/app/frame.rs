@@ -1,5 +1,6 @@
 //! What the simulation thread publishes: one immutable picture of everything that the window shows.
 
+use super::plot_data::Plots;
 use crate::engine::{DVec2, Method, StepReport, World};
 use crate::measure::Measures;
 use std::sync::Arc;
@@ -41,6 +42,8 @@ pub struct Frame {
     pub method: Method,
     pub report: StepReport,
     pub measures: Measures,
+    /// The last 20 s of measures and stage times, every step of them.
+    pub plots: Plots,
     /// What the plan decided, in one sentence.
     pub plan: String,
     pub running: bool,
