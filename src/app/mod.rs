@@ -5,9 +5,12 @@ pub mod camera;
 pub mod command;
 pub mod edit;
 pub mod frame;
+pub mod history;
 pub mod keys;
 pub mod pick;
 pub mod plot_data;
+pub mod session;
+mod simulation;
 pub mod tools;
 
 pub use camera::Camera;
@@ -15,4 +18,5 @@ pub use command::{Command, Edit, Spawn};
 pub use frame::{Frame, SceneInfo, Speed};
 pub use keys::Action;
 pub use plot_data::{Plots, Sample};
+pub use session::Session;
 pub use tools::{Button, Feedback, Join, Modifiers, Phase, PointerEvent, Tool, Tools};
