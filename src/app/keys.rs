@@ -179,11 +179,6 @@ impl Action {
         ENTRIES.iter().find(|entry| entry.action == self).expect("a test looks up every action in the table")
     }
 
-    /// The action behind a key, if there is one.
-    pub fn of(shortcut: Shortcut) -> Option<Action> {
-        ENTRIES.iter().find(|entry| entry.shortcuts.contains(&shortcut)).map(|entry| entry.action)
-    }
-
     /// Name, help and shortcut for a tooltip.
     pub fn tooltip(self) -> String {
         let entry = self.entry();
