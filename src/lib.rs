@@ -16,3 +16,5 @@ pub mod measure;
 #[cfg(feature = "desktop")]
 pub mod render;
 pub mod scene;
+#[cfg(feature = "desktop")]
+pub mod ui;
