@@ -16,3 +16,7 @@ pub mod measure;
 #[cfg(feature = "desktop")]
 pub mod render;
 pub mod scene;
+#[cfg(feature = "desktop")]
+pub mod ui;
+#[cfg(feature = "desktop")]
+pub mod window;

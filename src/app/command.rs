@@ -44,8 +44,14 @@ pub enum Command {
 /// A change of the scene while it runs.
 #[derive(Clone, Debug)]
 pub enum Edit {
-    /// Adds something at a point [m].
-    Spawn(Spawn, DVec2),
+    /// Adds something at a point [m]. `size` is the radius of one particle of it [m]; everything else follows from it.
+    Spawn {
+        kind: Spawn,
+        at: DVec2,
+        size: f64,
+    },
+    /// Copies bodies, the constraints among them, and walls, shifted by an offset [m].
+    Duplicate(Vec<Id>, DVec2),
     /// Removes bodies (with what hangs on them), constraints and walls.
     Delete(Vec<Id>),
     /// Removes every rod, spring, rope and pin that the line between two points crosses.
@@ -58,6 +64,26 @@ pub enum Edit {
     /// Joins two bodies, or a body and a point.
     Join(Constraint),
     AddWall(Wall),
+}
+
+impl Edit {
+    /// The name under which undo and redo offer it.
+    pub fn name(&self) -> String {
+        match self {
+            Edit::Spawn { kind, .. } => format!("Add {}", kind.name().to_lowercase()),
+            Edit::Duplicate(..) => "Duplicate".into(),
+            Edit::Delete(ids) if ids.len() > 1 => format!("Delete {} things", ids.len()),
+            Edit::Delete(_) => "Delete".into(),
+            Edit::Cut(..) => "Cut".into(),
+            Edit::Pin(_, true) => "Pin".into(),
+            Edit::Pin(_, false) => "Unpin".into(),
+            Edit::SetBody(id, _) => format!("Change body {id}"),
+            Edit::SetKind(id, kind) => format!("Change {} {id}", kind.name().to_lowercase()),
+            Edit::SetWall(id, _) => format!("Change wall {id}"),
+            Edit::Join(constraint) => format!("Add {}", constraint.kind.name().to_lowercase()),
+            Edit::AddWall(_) => "Add wall".into(),
+        }
+    }
 }
 
 /// What the palette offers.

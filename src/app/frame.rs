@@ -1,6 +1,7 @@
 //! What the simulation thread publishes: one immutable picture of everything that the window shows.
 
-use crate::engine::{DVec2, Method, StepReport, World};
+use super::plot_data::Plots;
+use crate::engine::{DVec2, Id, Method, StepReport, World};
 use crate::measure::Measures;
 use std::sync::Arc;
 use std::time::Instant;
@@ -41,6 +42,8 @@ pub struct Frame {
     pub method: Method,
     pub report: StepReport,
     pub measures: Measures,
+    /// The last 20 s of measures and stage times, every step of them.
+    pub plots: Plots,
     /// What the plan decided, in one sentence.
     pub plan: String,
     pub running: bool,
@@ -50,4 +53,6 @@ pub struct Frame {
     /// Names of the edits that undo and redo would act on.
     pub undo: Option<String>,
     pub redo: Option<String>,
+    /// What the last edit made or changed; another `Arc` after every edit.
+    pub touched: Arc<Vec<Id>>,
 }

@@ -1,9 +1,23 @@
-//! The sandbox without its window: the simulation thread, the commands it takes, the frames it publishes, the camera, undo.
+//! The sandbox without its window: the simulation thread, the commands it takes, the frames it publishes, the camera, the
+//! tools of the canvas, the table of actions, undo.
 
 pub mod camera;
 pub mod command;
+pub mod edit;
 pub mod frame;
+pub mod history;
+pub mod keys;
+pub mod pick;
+pub mod plot_data;
+pub mod session;
+mod simulation;
+pub mod tools;
 
 pub use camera::Camera;
 pub use command::{Command, Edit, Spawn};
 pub use frame::{Frame, SceneInfo, Speed};
+pub use keys::Action;
+pub use plot_data::{Plots, Sample};
+pub use session::Session;
+pub use simulation::frame_after;
+pub use tools::{Button, Feedback, Join, Modifiers, Phase, PointerEvent, Tool, Tools};

@@ -1,0 +1,239 @@
+//! Carries out edits on a world: adding, copying, cutting, pinning, joining, changing, removing.
+
+use super::command::{Edit, Spawn};
+use super::pick::{Item, item};
+use crate::engine::{Anchor, Body, Constraint, DVec2, EngineError, Id, Kind, Motion, Shape, Spin, Wall, World};
+
+/// Carries out `edit` and tells which things it made or changed; empty if there was nothing to do. On an error the world may be
+/// half changed: the caller keeps a copy.
+pub fn apply(world: &mut World, edit: &Edit) -> Result<Vec<Id>, EngineError> {
+    match edit {
+        Edit::Spawn { kind, at, size } => spawn(world, *kind, *at, *size),
+        Edit::Duplicate(ids, offset) => duplicate(world, ids, *offset),
+        Edit::Delete(ids) => Ok(delete(world, ids)),
+        Edit::Cut(from, to) => Ok(cut(world, *from, *to)),
+        Edit::Pin(ids, fixed) => pin(world, ids, *fixed),
+        Edit::SetBody(id, body) => world.set_body(*id, body).map(|()| vec![*id]),
+        Edit::SetKind(id, kind) => world.set_kind(*id, *kind).map(|()| vec![*id]),
+        Edit::SetWall(id, wall) => world.set_wall(*id, wall).map(|()| vec![*id]),
+        Edit::Join(constraint) => world.add_constraint(constraint).map(|id| vec![id]),
+        Edit::AddWall(wall) => world.add_wall(wall).map(|id| vec![id]),
+    }
+}
+
+/// Mass of a spawned body by its area [kg/m²]: a disc of 0.1 m has about a kilogram.
+const DENSITY: f64 = 30.0;
+/// Natural frequency of `mass` on a spawned spring [Hz]: slow enough to be seen, far below the rate of a substep.
+const SPRING_HZ: f64 = 2.5;
+/// Damping ratio of a spawned spring: it rings some ten times.
+const SPRING_DAMPING_RATIO: f64 = 0.03;
+/// Natural frequency of a particle on one spring of a spawned cloth [Hz]: stiff enough to hang like cloth, and with four
+/// neighbours still 15 substeps of 1/240 s a period.
+const CLOTH_HZ: f64 = 8.0;
+/// Links of a spawned rope.
+const ROPE_LINKS: u32 = 20;
+/// Particles along a side of a spawned cloth.
+const CLOTH_SIDE: u32 = 12;
+/// Discs along a side of a spawned pile.
+const PILE_SIDE: u32 = 8;
+
+/// A spring of rest length `rest` [m] that suits a `mass` [kg].
+pub(crate) fn spring(rest: f64, mass: f64) -> Kind {
+    spring_at(rest, mass, SPRING_HZ, SPRING_DAMPING_RATIO)
+}
+
+fn spring_at(rest: f64, mass: f64, frequency: f64, damping_ratio: f64) -> Kind {
+    let omega = std::f64::consts::TAU * frequency;
+    Kind::Spring { rest, stiffness: mass * omega * omega, damping: 2.0 * damping_ratio * mass * omega }
+}
+
+fn particle(position: DVec2, radius: f64) -> Body {
+    Body { position, radius, mass: DENSITY * std::f64::consts::PI * radius * radius, ..Body::default() }
+}
+
+fn spawn(world: &mut World, kind: Spawn, at: DVec2, size: f64) -> Result<Vec<Id>, EngineError> {
+    let pair = DVec2::new(4.0 * size, 0.0);
+    match kind {
+        Spawn::Particle => Ok(vec![world.add_body(&particle(at, size))?]),
+        Spawn::Disc => {
+            let disc = Body { spin: Some(Spin::default()), restitution: 0.3, ..particle(at, 2.0 * size) };
+            Ok(vec![world.add_body(&disc)?])
+        }
+        Spawn::Rod => spawn_pair(world, at - pair, at + pair, size, Kind::Rod { length: 8.0 * size }),
+        Spawn::Spring => {
+            let kind = spring(8.0 * size, particle(at, size).mass);
+            spawn_pair(world, at - pair, at + pair, size, kind)
+        }
+        Spawn::Rope => spawn_rope(world, at, size),
+        Spawn::Cloth => spawn_cloth(world, at, size),
+        Spawn::Pile => spawn_pile(world, at, size),
+    }
+}
+
+fn spawn_pair(world: &mut World, a: DVec2, b: DVec2, radius: f64, kind: Kind) -> Result<Vec<Id>, EngineError> {
+    let (a, b) = (world.add_body(&particle(a, radius))?, world.add_body(&particle(b, radius))?);
+    let constraint = world.add_constraint(&Constraint::between(kind, a, b))?;
+    Ok(vec![a, b, constraint])
+}
+
+/// Hangs from a pinned particle at `at`, to the right.
+fn spawn_rope(world: &mut World, at: DVec2, size: f64) -> Result<Vec<Id>, EngineError> {
+    let (link, group) = (2.5 * size, own_group(world));
+    let mut ids = Vec::new();
+    for i in 0..=ROPE_LINKS {
+        let motion = if i == 0 { Motion::Static } else { Motion::Dynamic };
+        let position = at + DVec2::new(link * f64::from(i), 0.0);
+        ids.push(world.add_body(&Body { motion, group, ..particle(position, size) })?);
+    }
+    for i in 0..ROPE_LINKS as usize {
+        ids.push(world.add_constraint(&Constraint::between(Kind::Rod { length: link }, ids[i], ids[i + 1]))?);
+    }
+    Ok(ids)
+}
+
+/// Hangs from two pinned corners, its top edge's middle at `at`.
+fn spawn_cloth(world: &mut World, at: DVec2, size: f64) -> Result<Vec<Id>, EngineError> {
+    let (n, gap, group) = (CLOTH_SIDE, 2.5 * size, own_group(world));
+    let corner = at - DVec2::new(gap * f64::from(n - 1) / 2.0, 0.0);
+    let mut ids = Vec::new();
+    for i in 0..n * n {
+        let (row, column) = (i / n, i % n);
+        let motion = if row == 0 && (column == 0 || column == n - 1) { Motion::Static } else { Motion::Dynamic };
+        let position = corner + gap * DVec2::new(f64::from(column), -f64::from(row));
+        ids.push(world.add_body(&Body { motion, group, ..particle(position, size) })?);
+    }
+    let mass = particle(at, size).mass;
+    for i in 0..n * n {
+        let (row, column) = (i / n, i % n);
+        let neighbours = [
+            (column + 1 < n, i + 1, 1.0),
+            (row + 1 < n, i + n, 1.0),
+            (column + 1 < n && row + 1 < n, i + n + 1, 0.5),
+            (column > 0 && row + 1 < n, (i + n).wrapping_sub(1), 0.5),
+        ];
+        for (_, j, share) in neighbours.into_iter().filter(|(exists, ..)| *exists) {
+            let (a, b) = (ids[i as usize], ids[j as usize]);
+            let rest = world.body(a)?.position.distance(world.body(b)?.position);
+            let kind = spring_at(rest, mass * share, CLOTH_HZ, SPRING_DAMPING_RATIO);
+            ids.push(world.add_constraint(&Constraint::between(kind, a, b))?);
+        }
+    }
+    Ok(ids)
+}
+
+/// A block of discs around `at`, every second row shifted by half a gap so that it falls apart.
+fn spawn_pile(world: &mut World, at: DVec2, size: f64) -> Result<Vec<Id>, EngineError> {
+    let (n, gap) = (PILE_SIDE, 2.1 * size);
+    let mut ids = Vec::new();
+    for i in 0..n * n {
+        let (row, column) = (f64::from(i / n), f64::from(i % n));
+        let shift = if (i / n) % 2 == 1 { 0.5 } else { 0.0 };
+        let middle = f64::from(n - 1) / 2.0;
+        let disc = particle(at + gap * DVec2::new(column + shift - middle, row - middle), size);
+        ids.push(world.add_body(&Body { spin: Some(Spin::default()), ..disc })?);
+    }
+    Ok(ids)
+}
+
+/// A collision group that nothing in the world uses yet.
+fn own_group(world: &World) -> u32 {
+    world.bodies().group.iter().copied().max().unwrap_or(0).saturating_add(1)
+}
+
+fn duplicate(world: &mut World, ids: &[Id], offset: DVec2) -> Result<Vec<Id>, EngineError> {
+    let mut copies = Vec::new();
+    for &id in ids {
+        let Ok(body) = world.body(id) else { continue };
+        copies.push((id, world.add_body(&Body { position: body.position + offset, ..body })?));
+    }
+    let copy_of = |id: Id| copies.iter().find(|(old, _)| *old == id).map(|(_, new)| *new);
+    // A constraint comes along if it was selected, or if it joins two things that are copied.
+    let moved = |anchor: Anchor| match anchor {
+        Anchor::Body(id, local) => copy_of(id).map(|copy| Anchor::Body(copy, local)),
+        Anchor::World(point) => Some(Anchor::World(point + offset)),
+    };
+    let mut made: Vec<Id> = copies.iter().map(|(_, new)| *new).collect();
+    for index in 0..world.constraints().len() {
+        let old = world.constraint_at(index);
+        if let (Some(a), Some(b)) = (moved(old.a), moved(old.b)) {
+            made.push(world.add_constraint(&Constraint { a, b, ..old })?);
+        }
+    }
+    for &id in ids {
+        if let Some(Item::Wall(index)) = item(world, id) {
+            let old = world.walls()[index];
+            made.push(world.add_wall(&Wall { shape: shifted(old.shape, offset), ..old })?);
+        }
+    }
+    Ok(made)
+}
+
+fn shifted(shape: Shape, offset: DVec2) -> Shape {
+    match shape {
+        Shape::Segment { from, to } => Shape::Segment { from: from + offset, to: to + offset },
+        Shape::Box { min, max } => Shape::Box { min: min + offset, max: max + offset },
+    }
+}
+
+fn delete(world: &mut World, ids: &[Id]) -> Vec<Id> {
+    let of = |wanted: fn(Item) -> bool| -> Vec<Id> {
+        ids.iter().copied().filter(|id| item(world, *id).is_some_and(wanted)).collect()
+    };
+    let bodies = of(|item| matches!(item, Item::Body(_)));
+    let constraints = of(|item| matches!(item, Item::Constraint(_)));
+    let walls = of(|item| matches!(item, Item::Wall(_)));
+    if !constraints.is_empty() {
+        world.remove_constraints(&constraints);
+    }
+    if !bodies.is_empty() {
+        world.remove_bodies(&bodies);
+    }
+    if !walls.is_empty() {
+        world.remove_walls(&walls);
+    }
+    [bodies, constraints, walls].concat()
+}
+
+/// A pin has no length that a slash could cross: it is cut if the slash passes it within this part of the slash's own length.
+const PIN_REACH: f64 = 0.02;
+
+fn cut(world: &mut World, from: DVec2, to: DVec2) -> Vec<Id> {
+    let slash = Shape::Segment { from, to };
+    let crossed = |index: usize| {
+        let (a, b) = world.ends(index);
+        match world.constraints().kind[index] {
+            Kind::Pin => slash.distance((a + b) / 2.0).0 <= PIN_REACH * from.distance(to),
+            _ => segments_cross(from, to, a, b),
+        }
+    };
+    let constraints = world.constraints();
+    let ids: Vec<Id> = (0..constraints.len()).filter(|&i| crossed(i)).map(|i| constraints.id[i]).collect();
+    if !ids.is_empty() {
+        world.remove_constraints(&ids);
+    }
+    ids
+}
+
+/// Whether segment ab and segment cd have a point in common, by the signs of four areas; two on one line do not count.
+fn segments_cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+    let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+    let (c_side, d_side) = (side(a, b, c), side(a, b, d));
+    let (a_side, b_side) = (side(c, d, a), side(c, d, b));
+    (c_side != 0.0 || d_side != 0.0) && c_side * d_side <= 0.0 && a_side * b_side <= 0.0
+}
+
+fn pin(world: &mut World, ids: &[Id], fixed: bool) -> Result<Vec<Id>, EngineError> {
+    let motion = if fixed { Motion::Static } else { Motion::Dynamic };
+    let mut changed = Vec::new();
+    for &id in ids {
+        let Ok(body) = world.body(id) else { continue };
+        if body.motion == motion {
+            continue;
+        }
+        // What is fixed has no velocity left, so that it does not fly off when it is freed.
+        let spin = body.spin.map(|spin| Spin { omega: 0.0, ..spin });
+        world.set_body(id, &Body { motion, velocity: DVec2::ZERO, spin, ..body })?;
+        changed.push(id);
+    }
+    Ok(changed)
+}

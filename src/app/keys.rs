@@ -1,0 +1,190 @@
+//! Every action that a user can ask for by key, with its shortcut, its name and what it does: the one table behind the
+//! keyboard, the help, the tooltips and the palette of actions.
+
+use super::command::Spawn;
+use super::tools::{Join, Tool};
+
+/// Something that a key, a button or the palette of actions can ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    ToggleRun,
+    StepOnce,
+    Restart,
+    Slower,
+    Faster,
+    PreviousScene,
+    NextScene,
+    OpenByName,
+    Save,
+    ZoomIn,
+    ZoomOut,
+    FitAll,
+    FitSelection,
+    TogglePanels,
+    Undo,
+    Redo,
+    Duplicate,
+    Delete,
+    Pin,
+    SelectAll,
+    Tool(Tool),
+    Palette,
+    Help,
+    FullScreen,
+    Escape,
+}
+
+/// A key with the modifiers that must be held, and no others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shortcut {
+    pub ctrl: bool,
+    pub shift: bool,
+    /// Name of the key as in the W3C's key values where it has one there ("ArrowRight"), else the character it types.
+    pub key: &'static str,
+}
+
+impl std::fmt::Display for Shortcut {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let key = match self.key {
+            "ArrowRight" => "→",
+            "Escape" => "Esc",
+            key => key,
+        };
+        write!(f, "{}{}{key}", if self.ctrl { "Ctrl-" } else { "" }, if self.shift { "Shift-" } else { "" })
+    }
+}
+
+/// One line of the table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    pub action: Action,
+    /// The shortcuts, the one to show first.
+    pub shortcuts: &'static [Shortcut],
+    pub name: &'static str,
+    pub help: &'static str,
+}
+
+const fn key(key: &'static str) -> Shortcut {
+    Shortcut { ctrl: false, shift: false, key }
+}
+
+const fn ctrl(key: &'static str) -> Shortcut {
+    Shortcut { ctrl: true, shift: false, key }
+}
+
+const fn entry(action: Action, shortcuts: &'static [Shortcut], name: &'static str, help: &'static str) -> Entry {
+    Entry { action, shortcuts, name, help }
+}
+
+/// The table, in the order of the help.
+pub const ENTRIES: &[Entry] = &[
+    entry(Action::ToggleRun, &[key("Space"), key("P")], "Run or pause", "Lets time run, or stops it."),
+    entry(Action::StepOnce, &[key("."), key("ArrowRight")], "Step", "Takes one step of the simulation and pauses."),
+    entry(Action::Restart, &[key("R")], "Restart", "Back to the start of the scene. Can be undone."),
+    entry(Action::Slower, &[key("-")], "Slower", "Halves the speed, down to a hundredth of real time."),
+    entry(Action::Faster, &[key("="), key("+")], "Faster", "Doubles the speed, up to ten times real time."),
+    entry(Action::PreviousScene, &[key("[")], "Previous scene", "Opens the scene before this one in the list."),
+    entry(Action::NextScene, &[key("]")], "Next scene", "Opens the scene after this one in the list."),
+    entry(Action::OpenByName, &[ctrl("O")], "Open…", "Opens a scene by its name, or a scene file by its path."),
+    entry(Action::Save, &[ctrl("S")], "Save as…", "Writes the scene as it stands to a file."),
+    entry(Action::ZoomIn, &[ctrl("=")], "Zoom in", "Shows a smaller part of the world. The wheel zooms to the cursor."),
+    entry(
+        Action::ZoomOut,
+        &[ctrl("-")],
+        "Zoom out",
+        "Shows a larger part of the world. The wheel zooms to the cursor.",
+    ),
+    entry(Action::FitAll, &[key("Home")], "Fit all", "Shows the scene's own view, or everything."),
+    entry(Action::FitSelection, &[key("F")], "Fit selection", "Shows what is selected, as large as it fits."),
+    entry(Action::TogglePanels, &[key("Tab")], "Hide panels", "Hides the panels, or shows them again."),
+    entry(Action::Undo, &[ctrl("Z")], "Undo", "Takes back the last edit, restart or opening."),
+    entry(
+        Action::Redo,
+        &[ctrl("Y"), Shortcut { ctrl: true, shift: true, key: "Z" }],
+        "Redo",
+        "Does again what was undone.",
+    ),
+    entry(Action::Duplicate, &[ctrl("D")], "Duplicate", "Copies what is selected."),
+    entry(
+        Action::Delete,
+        &[key("Delete"), key("Backspace")],
+        "Delete",
+        "Removes what is selected and what hangs on it.",
+    ),
+    entry(Action::Pin, &[key("N")], "Pin or unpin", "Fixes the selected bodies where they are, or frees them."),
+    entry(Action::SelectAll, &[ctrl("A")], "Select all", "Selects every body."),
+    entry(
+        Action::Tool(Tool::Drag),
+        &[key("V")],
+        "Drag",
+        "Drag a body by the point you take hold of, and throw it. A click selects.",
+    ),
+    entry(Action::Tool(Tool::Select), &[key("S")], "Select", "Select by click, or with a box; Shift adds."),
+    entry(Action::Tool(Tool::Cut), &[key("C")], "Cut", "A slash cuts every rod, spring, rope and pin that it crosses."),
+    entry(
+        Action::Tool(Tool::Join(Join::Rod)),
+        &[key("J")],
+        "Join with a rod",
+        "Drag from body to body, or to a free point: the distance stays.",
+    ),
+    entry(
+        Action::Tool(Tool::Join(Join::Spring)),
+        &[key("K")],
+        "Join with a spring",
+        "Drag from body to body, or to a free point: a spring at rest.",
+    ),
+    entry(
+        Action::Tool(Tool::Join(Join::Rope)),
+        &[key("L")],
+        "Join with a rope",
+        "Drag from body to body, or to a free point: the distance does not grow.",
+    ),
+    entry(Action::Tool(Tool::Wall), &[key("W")], "Wall", "Draw a wall. Shift turns it in steps of 15°."),
+    entry(
+        Action::Tool(Tool::Spawn(Spawn::Particle)),
+        &[key("1")],
+        "Particle",
+        "Click: a particle, which does not turn.",
+    ),
+    entry(Action::Tool(Tool::Spawn(Spawn::Disc)), &[key("2")], "Disc", "Click: a disc that turns and rolls."),
+    entry(Action::Tool(Tool::Spawn(Spawn::Rod)), &[key("3")], "Rod", "Click: two particles joined by a rod."),
+    entry(Action::Tool(Tool::Spawn(Spawn::Spring)), &[key("4")], "Spring", "Click: two particles joined by a spring."),
+    entry(
+        Action::Tool(Tool::Spawn(Spawn::Rope)),
+        &[key("5")],
+        "Rope",
+        "Click: a chain of rods, its first particle pinned.",
+    ),
+    entry(
+        Action::Tool(Tool::Spawn(Spawn::Cloth)),
+        &[key("6")],
+        "Cloth",
+        "Click: a net of springs, two corners pinned.",
+    ),
+    entry(Action::Tool(Tool::Spawn(Spawn::Pile)), &[key("7")], "Pile", "Click: a block of discs that falls apart."),
+    entry(Action::Palette, &[ctrl("K")], "Find an action", "Lists every action with its shortcut; type to find one."),
+    entry(Action::Help, &[key("F1")], "Help", "Lists every action with its shortcut."),
+    entry(Action::FullScreen, &[key("F11")], "Full screen", "Fills the screen with the window, or gives it back."),
+    entry(
+        Action::Escape,
+        &[key("Escape")],
+        "Cancel",
+        "Gives up what is going on: a slash, a dialog, the selection, the tool.",
+    ),
+];
+
+impl Action {
+    /// The action's line in the table.
+    pub fn entry(self) -> &'static Entry {
+        ENTRIES.iter().find(|entry| entry.action == self).expect("a test looks up every action in the table")
+    }
+
+    /// Name, help and shortcut for a tooltip.
+    pub fn tooltip(self) -> String {
+        let entry = self.entry();
+        match entry.shortcuts.first() {
+            Some(shortcut) => format!("{} [{shortcut}]", entry.help),
+            None => entry.help.to_owned(),
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! The simulation without its thread: the world, its stepper and its history, and what every command does to them.
+
+use super::command::{Command, Edit};
+use super::edit;
+use super::frame::{Frame, SceneInfo, Speed};
+use super::history::{History, State};
+use super::plot_data::{Plots, Sample};
+use crate::engine::{DVec2, EngineError, Grip, Id, Method, StepReport, Stepper, World};
+use crate::measure::Measures;
+use crate::scene::{self, Setup};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, OnceLock};
+use std::time::Instant;
+
+/// Speeds that can be asked for [simulated seconds a second].
+pub const SPEED_RANGE: [f64; 2] = [0.01, 10.0];
+
+/// Everything that the simulation thread owns.
+pub(super) struct Simulation {
+    world: World,
+    stepper: Stepper,
+    /// The scene as it was opened.
+    start: Arc<Setup>,
+    scene: Arc<SceneInfo>,
+    history: History,
+    plots: Plots,
+    report: StepReport,
+    measures: Measures,
+    previous_position: Vec<DVec2>,
+    previous_angle: Vec<f64>,
+    running: bool,
+    speed: f64,
+    fault: Option<String>,
+    /// What the last edit made or changed.
+    touched: Arc<Vec<Id>>,
+    opened: u64,
+    /// The last frame that was published: a whole state to go back to.
+    published: Option<Arc<Frame>>,
+}
+
+impl Simulation {
+    pub(super) fn new(setup: Setup) -> Simulation {
+        let (stepper, fault) = stepper(setup.method);
+        let start = Arc::new(setup);
+        Simulation {
+            world: start.world.clone(),
+            stepper,
+            scene: Arc::new(info(&start, 1)),
+            history: History::default(),
+            plots: Plots::default(),
+            report: StepReport::default(),
+            measures: Measures::of(&start.world),
+            previous_position: Vec::new(),
+            previous_angle: Vec::new(),
+            running: fault.is_none(),
+            speed: 1.0,
+            fault,
+            touched: Arc::default(),
+            opened: 1,
+            published: None,
+            start,
+        }
+    }
+
+    pub(super) fn running(&self) -> bool {
+        self.running
+    }
+
+    /// Wanted speed [simulated seconds a second].
+    pub(super) fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    pub(super) fn time(&self) -> f64 {
+        self.world.time()
+    }
+
+    /// Length of a step [s of simulated time].
+    pub(super) fn step_seconds(&self) -> f64 {
+        self.stepper.method().step_seconds()
+    }
+
+    /// A picture of it all.
+    pub(super) fn publish(&mut self, sequence: u64, achieved: f64) -> Arc<Frame> {
+        let frame = Arc::new(self.frame(sequence, achieved));
+        self.published = Some(frame.clone());
+        frame
+    }
+
+    fn frame(&self, sequence: u64, achieved: f64) -> Frame {
+        Frame {
+            sequence,
+            published: Instant::now(),
+            scene: self.scene.clone(),
+            world: self.world.clone(),
+            previous_position: self.previous_position.clone(),
+            previous_angle: self.previous_angle.clone(),
+            method: *self.stepper.method(),
+            report: self.report.clone(),
+            measures: self.measures,
+            plots: self.plots.clone(),
+            plan: self.stepper.plan_sentence(),
+            running: self.running,
+            speed: Speed { wanted: self.speed, achieved },
+            fault: self.fault.clone(),
+            undo: self.history.undo_name().map(str::to_owned),
+            redo: self.history.redo_name().map(str::to_owned),
+            touched: self.touched.clone(),
+        }
+    }
+
+    /// Steps once. A run that diverges, or a step that panics, pauses at the last good state with a fault.
+    pub(super) fn step(&mut self) {
+        self.remember_previous();
+        let (world, stepper) = (&mut self.world, &mut self.stepper);
+        // The one place where a panic is caught: a defect in a step must cost the step, not the window and the user's work.
+        match catch_unwind(AssertUnwindSafe(|| stepper.step(world))) {
+            Ok(report) => {
+                if let Some(divergence) = &report.divergence {
+                    self.halt(divergence.to_string());
+                } else {
+                    self.measures = Measures::of(&self.world);
+                    self.plots.push(Sample::new(self.measures, &report));
+                }
+                self.report = report;
+            }
+            Err(_) => self.recover(),
+        }
+    }
+
+    /// After a panic the world may be half stepped: back to the state that was shown last.
+    fn recover(&mut self) {
+        let good = self.published.as_ref().map_or(&self.start.world, |frame| &frame.world).clone();
+        self.restore(State { world: good, ..self.state() });
+        self.halt(
+            "a step failed, which is a defect of Tautline; the last state shown was kept. Try another solver.".into(),
+        );
+    }
+
+    fn halt(&mut self, fault: String) {
+        self.running = false;
+        self.fault = Some(fault);
+    }
+
+    fn remember_previous(&mut self) {
+        let bodies = self.world.bodies();
+        self.previous_position.clone_from(&bodies.position);
+        self.previous_angle.clear();
+        self.previous_angle.extend((0..bodies.len()).map(|i| bodies.spin(i).map_or(0.0, |spin| spin.angle)));
+    }
+
+    /// Carries out one command. What fails leaves the run as it was and shows a fault.
+    pub(super) fn apply(&mut self, command: Command) {
+        if let Err(fault) = self.try_apply(command) {
+            self.fault = Some(fault);
+        }
+    }
+
+    fn try_apply(&mut self, command: Command) -> Result<(), String> {
+        let text = |error: EngineError| error.to_string();
+        match command {
+            Command::Run(running) => {
+                self.running = running;
+                self.fault = self.fault.take().filter(|_| !running);
+            }
+            Command::StepOnce => {
+                self.running = false;
+                self.fault = None;
+                self.step();
+            }
+            Command::Restart => self.open((*self.start).clone(), "Restart"),
+            Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
+            Command::Speed(speed) => return Err(format!("speed is {speed}, but must be between 0.01 and 10")),
+            Command::Open(name) => {
+                let setup = scene::open(&name).map_err(|error| error.to_string())?;
+                self.open(setup, "Open");
+            }
+            Command::SaveAs(path) => {
+                let setup =
+                    Setup { world: self.world.clone(), method: *self.stepper.method(), ..(*self.start).clone() };
+                scene::save(&path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
+            }
+            Command::Method(method) => self.stepper.set_method(method).map_err(text)?,
+            Command::Gravity(gravity) => self.world.set_gravity(gravity).map_err(text)?,
+            Command::Drag(drag) => self.world.set_drag(drag).map_err(text)?,
+            Command::Tuning(tuning) => self.world.set_tuning(tuning).map_err(text)?,
+            Command::Grab { body, at } => self.grab(body, at).map_err(text)?,
+            Command::MoveGrip(target) => {
+                if let Some(grip) = self.world.grip().copied() {
+                    self.world.set_grip(Some(Grip { target, ..grip })).map_err(text)?;
+                }
+            }
+            Command::Release => self.world.set_grip(None).map_err(text)?,
+            Command::Edit(edit) => self.edit(&edit)?,
+            Command::Undo => {
+                let now = self.state();
+                if let Some(state) = self.history.undo(now) {
+                    self.restore(state);
+                }
+            }
+            Command::Redo => {
+                let now = self.state();
+                if let Some(state) = self.history.redo(now) {
+                    self.restore(state);
+                }
+            }
+            Command::DismissFault => self.fault = None,
+            Command::Quit => self.running = false,
+        }
+        Ok(())
+    }
+
+    fn state(&self) -> State {
+        State { world: self.world.clone(), method: *self.stepper.method(), start: self.start.clone() }
+    }
+
+    /// Starts a scene, which can be undone. A method that cannot be used shows a fault and changes nothing.
+    fn open(&mut self, setup: Setup, name: &str) {
+        let before = self.state();
+        let state = State { world: setup.world.clone(), method: setup.method, start: Arc::new(setup) };
+        self.history.record(format!("{name} {}", state.start.name), before);
+        self.restore(state);
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<(), String> {
+        let before = self.state();
+        match edit::apply(&mut self.world, edit) {
+            Ok(touched) if touched.is_empty() => {}
+            Ok(touched) => {
+                self.touched = Arc::new(touched);
+                self.history.record(edit.name(), before);
+                self.measure_anew();
+            }
+            Err(error) => {
+                self.world = before.world;
+                return Err(error.to_string());
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes up a state from the history or the start of a scene. A hold is let go: it belongs to the other state.
+    fn restore(&mut self, state: State) {
+        if !Arc::ptr_eq(&state.start, &self.start) {
+            self.opened += 1;
+            self.scene = Arc::new(info(&state.start, self.opened));
+            self.plots.clear();
+        }
+        self.world = state.world;
+        self.start = state.start;
+        self.world.set_grip(None).expect("letting go is always possible");
+        // A new stepper: the old one's plan and memory belong to another world.
+        (self.stepper, self.fault) = stepper(state.method);
+        self.plots.rewind(self.world.time());
+        self.report = StepReport::default();
+        self.measure_anew();
+    }
+
+    fn measure_anew(&mut self) {
+        self.measures = Measures::of(&self.world);
+        self.previous_position.clear();
+        self.previous_angle.clear();
+    }
+
+    fn grab(&mut self, id: Id, at: DVec2) -> Result<(), EngineError> {
+        let index = self.world.bodies().index_of(id).ok_or(EngineError::NoBody(id))?;
+        let local = self.world.to_local(index, at);
+        let mass = self.world.bodies().mass[index];
+        self.world.set_grip(Some(Grip::new(id, local, at, mass)))
+    }
+}
+
+/// The frame of a scene after `seconds` of simulated time (rounded to whole steps), stepped here and now, without a thread. If
+/// the run diverges, the last good one, with the fault.
+pub fn frame_after(setup: Setup, seconds: f64) -> Arc<Frame> {
+    let mut simulation = Simulation::new(setup);
+    while simulation.running && simulation.time() + 0.5 * simulation.step_seconds() <= seconds {
+        simulation.step();
+    }
+    simulation.publish(0, simulation.speed())
+}
+
+/// A stepper with a clock; if the method cannot be used, the default one and why.
+fn stepper(method: Method) -> (Stepper, Option<String>) {
+    match Stepper::new(method) {
+        Ok(stepper) => (stepper.with_clock(nanoseconds), None),
+        Err(error) => {
+            let default = Stepper::new(Method::default()).expect("the default method is valid");
+            (default.with_clock(nanoseconds), Some(error.to_string()))
+        }
+    }
+}
+
+/// Nanoseconds since the first call.
+fn nanoseconds() -> u64 {
+    static ORIGIN: OnceLock<Instant> = OnceLock::new();
+    ORIGIN.get_or_init(Instant::now).elapsed().as_nanos() as u64
+}
+
+fn info(setup: &Setup, opened: u64) -> SceneInfo {
+    SceneInfo {
+        name: setup.name.clone(),
+        title: setup.title.clone(),
+        about: setup.about.clone(),
+        view: setup.view,
+        opened,
+    }
+}

@@ -1,0 +1,450 @@
+//! The tools of the canvas: what pointer and wheel do there. Turns pointer events into commands and into what is drawn
+//! meanwhile (slash, ghost, hovered thing, selection). Knows no window and no toolkit.
+
+use super::camera::Camera;
+use super::command::{Command, Edit, Spawn};
+use super::pick;
+use crate::engine::{Anchor, Constraint, DVec2, Id, Kind, Motion, Wall, World};
+
+/// What the left button does on the canvas.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Takes hold of a body; on empty ground draws a selection box; a click selects.
+    #[default]
+    Drag,
+    /// Selects by click or box.
+    Select,
+    /// Cuts what a slash crosses.
+    Cut,
+    Spawn(Spawn),
+    Join(Join),
+    /// Draws a wall.
+    Wall,
+}
+
+/// What the join tool puts between two ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Join {
+    Rod,
+    Spring,
+    Rope,
+}
+
+impl Tool {
+    /// The name shown to a user.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tool::Drag => "Drag",
+            Tool::Select => "Select",
+            Tool::Cut => "Cut",
+            Tool::Spawn(spawn) => spawn.name(),
+            Tool::Join(Join::Rod) => "Join with a rod",
+            Tool::Join(Join::Spring) => "Join with a spring",
+            Tool::Join(Join::Rope) => "Join with a rope",
+            Tool::Wall => "Wall",
+        }
+    }
+}
+
+/// A button of the pointer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Button {
+    Left,
+    Middle,
+    Right,
+}
+
+/// What happened to the pointer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    Press(Button),
+    /// With or without a button held.
+    Move,
+    Release(Button),
+    /// It left the canvas, or the window lost the focus: whatever was going on is given up.
+    Leave,
+}
+
+/// Keys held with the pointer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Modifiers {
+    pub shift: bool,
+    pub alt: bool,
+    pub ctrl: bool,
+    pub space: bool,
+}
+
+/// One event of the pointer on the canvas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointerEvent {
+    /// Where, in canvas points from the canvas's corner, y down.
+    pub canvas: DVec2,
+    pub phase: Phase,
+    pub modifiers: Modifiers,
+}
+
+/// What goes on between a press and its release.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Gesture {
+    #[default]
+    None,
+    /// From the canvas point of the last event.
+    Pan {
+        last: DVec2,
+        button: Button,
+    },
+    /// Since the canvas point of the press.
+    Grip {
+        body: Id,
+        pressed: DVec2,
+        moved: bool,
+    },
+    /// From a point of the world [m].
+    Box {
+        from: DVec2,
+    },
+    Slash {
+        from: DVec2,
+    },
+    Join {
+        from: Anchor,
+        start: DVec2,
+    },
+    Wall {
+        from: DVec2,
+    },
+}
+
+/// What the canvas shows of the tool at work; points in the world [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Feedback {
+    /// Nothing.
+    None,
+    /// From the grabbed point to the pointer; the frame's world holds the grip itself.
+    Grip,
+    SelectionBox(DVec2, DVec2),
+    Slash(DVec2, DVec2),
+    /// A thing about to be added, with the radius of its particles [m].
+    Ghost {
+        kind: Spawn,
+        at: DVec2,
+        size: f64,
+    },
+    /// A constraint about to be made.
+    Join {
+        kind: Join,
+        from: DVec2,
+        to: DVec2,
+    },
+    Wall(DVec2, DVec2),
+}
+
+/// Distance within which a point snaps to a centre or an end [canvas points].
+const SNAP_REACH: f64 = 12.0;
+/// A press and a release closer than this are a click [canvas points].
+const CLICK_REACH: f64 = 4.0;
+/// Zoom of one notch of the wheel.
+pub const ZOOM_NOTCH: f64 = 1.1;
+
+/// The tool in use, what is selected and what is under the pointer.
+#[derive(Clone, Debug, Default)]
+pub struct Tools {
+    tool: Tool,
+    selection: Vec<Id>,
+    hovered: Option<Id>,
+    gesture: Gesture,
+    /// Where the pointer was last seen, after snapping [m].
+    pointer: Option<DVec2>,
+}
+
+impl Tools {
+    /// The tool in use.
+    pub fn tool(&self) -> Tool {
+        self.tool
+    }
+
+    /// Takes up a tool; what was going on is given up. The commands end a hold.
+    pub fn set_tool(&mut self, tool: Tool) -> Vec<Command> {
+        let commands = self.give_up();
+        self.tool = tool;
+        commands
+    }
+
+    /// What is selected, ascending.
+    pub fn selection(&self) -> &[Id] {
+        &self.selection
+    }
+
+    /// Selects these and nothing else.
+    pub fn select(&mut self, mut ids: Vec<Id>) {
+        ids.sort_unstable();
+        ids.dedup();
+        self.selection = ids;
+    }
+
+    /// What lies under the pointer.
+    pub fn hovered(&self) -> Option<Id> {
+        self.hovered
+    }
+
+    /// Whether a button holds something: a body, a slash, the view.
+    pub fn busy(&self) -> bool {
+        self.gesture != Gesture::None
+    }
+
+    /// Gives up, one thing a call: what is going on, else the tool, else the selection.
+    pub fn escape(&mut self) -> Vec<Command> {
+        if self.busy() {
+            return self.give_up();
+        }
+        if self.tool != Tool::Drag {
+            self.tool = Tool::Drag;
+        } else {
+            self.selection.clear();
+        }
+        Vec::new()
+    }
+
+    /// Forgets what no longer exists in `world`. To be called with every new frame.
+    pub fn follow(&mut self, world: &World) {
+        self.selection.retain(|id| pick::item(world, *id).is_some());
+        self.hovered = self.hovered.filter(|id| pick::item(world, *id).is_some());
+    }
+
+    /// Turns the wheel by `notches` (forward: closer), so that the point under the pointer stays.
+    pub fn wheel(&self, camera: &mut Camera, canvas: DVec2, notches: f64) {
+        camera.zoom_at(canvas, ZOOM_NOTCH.powf(notches));
+    }
+
+    /// What to draw of the tool at work.
+    pub fn feedback(&self, camera: &Camera) -> Feedback {
+        let Some(to) = self.pointer else { return Feedback::None };
+        match (self.gesture, self.tool) {
+            (Gesture::Grip { .. }, _) => Feedback::Grip,
+            (Gesture::Box { from }, _) => Feedback::SelectionBox(from.min(to), from.max(to)),
+            (Gesture::Slash { from }, _) => Feedback::Slash(from, to),
+            (Gesture::Join { start, .. }, Tool::Join(kind)) => Feedback::Join { kind, from: start, to },
+            (Gesture::Wall { from }, _) => Feedback::Wall(from, to),
+            (Gesture::None, Tool::Spawn(kind)) => Feedback::Ghost { kind, at: to, size: spawn_size(camera) },
+            _ => Feedback::None,
+        }
+    }
+
+    /// Takes one event of the pointer; moves the camera if it pans.
+    pub fn pointer(&mut self, event: &PointerEvent, world: &World, camera: &mut Camera) -> Vec<Command> {
+        match event.phase {
+            Phase::Leave => {
+                self.hovered = None;
+                let commands = self.give_up();
+                self.pointer = None;
+                commands
+            }
+            Phase::Press(button) => self.press(button, event, world, camera),
+            Phase::Move => self.moved(event, world, camera),
+            Phase::Release(button) => self.release(button, event, world, camera),
+        }
+    }
+
+    fn press(&mut self, button: Button, event: &PointerEvent, world: &World, camera: &Camera) -> Vec<Command> {
+        if self.busy() {
+            return Vec::new();
+        }
+        if button != Button::Left || event.modifiers.space {
+            self.gesture = Gesture::Pan { last: event.canvas, button };
+            return Vec::new();
+        }
+        let free = camera.to_world(event.canvas);
+        let at = snap(event, world, camera, None);
+        self.pointer = Some(at);
+        match self.tool {
+            Tool::Drag => match pick::pick_body(world, camera, event.canvas) {
+                Some(body) => {
+                    self.gesture = Gesture::Grip { body, pressed: event.canvas, moved: false };
+                    return vec![Command::Grab { body, at: free }];
+                }
+                None => self.gesture = Gesture::Box { from: free },
+            },
+            Tool::Select => self.gesture = Gesture::Box { from: free },
+            Tool::Cut => self.gesture = Gesture::Slash { from: free },
+            Tool::Spawn(kind) => return vec![Command::Edit(Edit::Spawn { kind, at, size: spawn_size(camera) })],
+            Tool::Join(_) => {
+                let (from, start) = anchor(event, world, camera);
+                self.gesture = Gesture::Join { from, start };
+            }
+            Tool::Wall => self.gesture = Gesture::Wall { from: at },
+        }
+        Vec::new()
+    }
+
+    fn moved(&mut self, event: &PointerEvent, world: &World, camera: &mut Camera) -> Vec<Command> {
+        if let Gesture::Pan { last, .. } = &mut self.gesture {
+            camera.pan(event.canvas - *last);
+            *last = event.canvas;
+            return Vec::new();
+        }
+        self.track(event, world, camera);
+        if let Gesture::Grip { pressed, moved, .. } = &mut self.gesture {
+            *moved |= pressed.distance(event.canvas) > CLICK_REACH;
+            return vec![Command::MoveGrip(camera.to_world(event.canvas))];
+        }
+        Vec::new()
+    }
+
+    fn release(&mut self, button: Button, event: &PointerEvent, world: &World, camera: &Camera) -> Vec<Command> {
+        match self.gesture {
+            Gesture::Pan { button: held, .. } if held != button => return Vec::new(),
+            Gesture::Pan { .. } => {}
+            _ if button != Button::Left => return Vec::new(),
+            _ => self.track(event, world, camera),
+        }
+        let to = self.pointer.unwrap_or_else(|| camera.to_world(event.canvas));
+        match (std::mem::take(&mut self.gesture), self.tool) {
+            (Gesture::Grip { body, moved, .. }, _) => {
+                if !moved {
+                    self.choose(vec![body], event.modifiers);
+                }
+                vec![Command::Release]
+            }
+            (Gesture::Box { from }, _) => {
+                let click = camera.to_canvas(from).distance(event.canvas) <= CLICK_REACH;
+                let picked = || pick::pick(world, camera, event.canvas).into_iter().collect();
+                let found = if click { picked() } else { pick::within(world, from.min(to), from.max(to)) };
+                self.choose(found, event.modifiers);
+                Vec::new()
+            }
+            (Gesture::Slash { from }, _) => vec![Command::Edit(Edit::Cut(from, to))],
+            (Gesture::Join { from, start }, Tool::Join(kind)) => {
+                let (end, to) = anchor(event, world, camera);
+                join(world, kind, (from, start), (end, to)).map(|c| Command::Edit(Edit::Join(c))).into_iter().collect()
+            }
+            (Gesture::Wall { from }, _) if camera.to_canvas(from).distance(camera.to_canvas(to)) > CLICK_REACH => {
+                vec![Command::Edit(Edit::AddWall(Wall::segment(from, to)))]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Notes where the pointer is and what lies there.
+    fn track(&mut self, event: &PointerEvent, world: &World, camera: &Camera) {
+        self.hovered = match self.gesture {
+            Gesture::None | Gesture::Join { .. } => pick::pick(world, camera, event.canvas),
+            _ => None,
+        };
+        self.pointer = Some(match self.gesture {
+            Gesture::Grip { .. } | Gesture::Box { .. } | Gesture::Slash { .. } => camera.to_world(event.canvas),
+            Gesture::Join { .. } => anchor(event, world, camera).1,
+            Gesture::Wall { from } => snap(event, world, camera, Some(from)),
+            _ => snap(event, world, camera, None),
+        });
+    }
+
+    fn choose(&mut self, found: Vec<Id>, modifiers: Modifiers) {
+        if !(modifiers.shift || modifiers.ctrl) {
+            return self.select(found);
+        }
+        // Adding what is there already takes it away, one thing at a time.
+        if let [one] = found[..]
+            && self.selection.contains(&one)
+        {
+            return self.selection.retain(|id| *id != one);
+        }
+        let all = self.selection.iter().copied().chain(found).collect();
+        self.select(all);
+    }
+
+    fn give_up(&mut self) -> Vec<Command> {
+        match std::mem::take(&mut self.gesture) {
+            Gesture::Grip { .. } => vec![Command::Release],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// The radius of a spawned particle [m]: a round number near a hundredth of the height of the view.
+pub fn spawn_size(camera: &Camera) -> f64 {
+    round_step(camera.size.y.max(1.0) / camera.scale / 100.0)
+}
+
+/// Distance of the grid's lines at this zoom [m]: a round number, 40 … 100 canvas points wide.
+pub fn grid_step(camera: &Camera) -> f64 {
+    round_step(40.0 / camera.scale)
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is at least `least` (> 0).
+fn round_step(least: f64) -> f64 {
+    let power = 10f64.powf(least.log10().floor());
+    let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| factor * power >= least * (1.0 - 1e-9));
+    factor.unwrap_or(10.0) * power
+}
+
+/// The pointer in the world: with Shift on the nearest centre or end, else on the grid, and (given a start) in steps of 15°.
+fn snap(event: &PointerEvent, world: &World, camera: &Camera, start: Option<DVec2>) -> DVec2 {
+    let free = camera.to_world(event.canvas);
+    if !event.modifiers.shift || event.modifiers.alt {
+        return free;
+    }
+    if let Some(mark) = nearest_mark(world, free, SNAP_REACH / camera.scale) {
+        return mark;
+    }
+    match start {
+        Some(start) => {
+            let step = 15f64.to_radians();
+            let angle = ((free - start).to_angle() / step).round() * step;
+            let direction = DVec2::from_angle(angle);
+            start + direction * (free - start).dot(direction)
+        }
+        None => {
+            let step = grid_step(camera);
+            (free / step).round() * step
+        }
+    }
+}
+
+/// The nearest centre of a body or end of a constraint or wall within `reach` [m].
+fn nearest_mark(world: &World, point: DVec2, reach: f64) -> Option<DVec2> {
+    let centres = world.bodies().position.iter().copied();
+    let ends = (0..world.constraints().len()).flat_map(|i| <[DVec2; 2]>::from(world.ends(i)));
+    let corners = world.walls().iter().flat_map(|wall| match wall.shape {
+        crate::engine::Shape::Segment { from, to } => [from, to],
+        crate::engine::Shape::Box { min, max } => [min, max],
+    });
+    let marks = centres.chain(ends).chain(corners).map(|mark| (mark.distance(point), mark));
+    marks.filter(|(distance, _)| *distance <= reach).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, mark)| mark)
+}
+
+/// The end of a constraint at the pointer, and where it is [m]: a body's centre if it is near, else the point of the body, else a
+/// free point. Alt keeps to the exact point.
+fn anchor(event: &PointerEvent, world: &World, camera: &Camera) -> (Anchor, DVec2) {
+    let free = camera.to_world(event.canvas);
+    let body = pick::pick_body(world, camera, event.canvas);
+    let Some((id, index)) = body.and_then(|id| Some((id, world.bodies().index_of(id)?))) else {
+        let point = snap(event, world, camera, None);
+        return (Anchor::World(point), point);
+    };
+    let centre = world.bodies().position[index];
+    let near_centre = !event.modifiers.alt && centre.distance(free) * camera.scale <= SNAP_REACH;
+    if near_centre || world.bodies().spin(index).is_none() {
+        return (Anchor::centre(id), centre);
+    }
+    (Anchor::Body(id, world.to_local(index, free)), free)
+}
+
+/// The constraint between two ends as they stand, unless both are fixed or the same, or coincide.
+fn join(world: &World, kind: Join, from: (Anchor, DVec2), to: (Anchor, DVec2)) -> Option<Constraint> {
+    let length = from.1.distance(to.1);
+    let kind = match kind {
+        Join::Rod => Kind::Rod { length },
+        Join::Rope => Kind::Rope { length },
+        Join::Spring => {
+            let mass = |anchor: &Anchor| anchor.body().and_then(|id| world.body(id).ok()).filter(moves).map(|b| b.mass);
+            let mass = [mass(&from.0), mass(&to.0)].into_iter().flatten().reduce(f64::min).unwrap_or(1.0);
+            super::edit::spring(length, mass)
+        }
+    };
+    let constraint = Constraint { kind, a: from.0, b: to.0 };
+    constraint.validate().ok().map(|()| constraint)
+}
+
+fn moves(body: &crate::engine::Body) -> bool {
+    body.motion == Motion::Dynamic
+}

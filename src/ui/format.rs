@@ -1,0 +1,74 @@
+//! Numbers as a person reads them: three significant digits and a prefixed unit.
+
+/// `value` with three significant digits and the SI prefix that leaves 1 … 999 before the point: `si(0.00123, "m")` is
+/// "1.23 mm". Units that carry a prefix already (kg) or that take none (%, °) are written without a further one.
+pub fn si(value: f64, unit: &str) -> String {
+    if !value.is_finite() {
+        return format!("{value} {unit}");
+    }
+    if value == 0.0 {
+        return format!("0 {unit}");
+    }
+    let takes_prefix = !(unit.is_empty() || unit.starts_with("kg") || unit.starts_with('°') || unit.starts_with('%'));
+    if !takes_prefix {
+        return format!("{} {unit}", digits(value));
+    }
+    let exponent = (value.abs().log10() / 3.0).floor().clamp(-4.0, 4.0) as i32;
+    let (mut scaled, mut exponent) = (value / 1000f64.powi(exponent), exponent);
+    // 999.6 would round to 1000.
+    if scaled.abs() >= 999.5 && exponent < 4 {
+        scaled /= 1000.0;
+        exponent += 1;
+    }
+    let prefix = ["p", "n", "µ", "m", "", "k", "M", "G", "T"][(exponent + 4) as usize];
+    format!("{} {prefix}{unit}", digits(scaled))
+}
+
+/// `value` with three significant digits; very large and small ones in powers of ten.
+pub fn digits(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".into()
+    } else if !(1e-3..1e6).contains(&size) {
+        format!("{value:.2e}")
+    } else {
+        let decimals = (2.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
+        format!("{value:.decimals$}")
+    }
+}
+
+/// A count with thin groups of three: "12 345".
+pub fn count(n: usize) -> String {
+    let plain = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in plain.chars().enumerate() {
+        if i > 0 && (plain.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_carry_the_prefix_that_reads_best() {
+        assert_eq!(si(0.00123, "m"), "1.23 mm");
+        assert_eq!(si(-45_600.0, "N"), "-45.6 kN");
+        assert_eq!(si(999.7, "J"), "1.00 kJ");
+        assert_eq!(si(0.0, "m"), "0 m");
+        assert_eq!(si(0.25, "kg"), "0.250 kg");
+        assert_eq!(si(1e-30, "m"), "1.00e-18 pm");
+        assert_eq!(si(f64::NAN, "J"), "NaN J");
+    }
+
+    #[test]
+    fn counts_are_grouped_by_three() {
+        assert_eq!(count(7), "7");
+        assert_eq!(count(12_345), "12 345");
+        assert_eq!(count(1_000_000), "1 000 000");
+    }
+}

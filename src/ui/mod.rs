@@ -1,0 +1,28 @@
+//! The panels around the scene: pure functions of an immutable frame that answer with commands. egui only: no window, no
+//! graphics device; the scene itself is drawn below, in the rectangle that [`ShellOutput::canvas`] names.
+
+mod actions;
+mod canvas;
+mod draft;
+mod fault;
+pub mod finder;
+pub mod format;
+mod help;
+mod icon;
+mod inspector;
+mod overlay;
+mod palette;
+mod plots;
+pub mod scenes;
+pub mod settings;
+pub mod shell;
+pub mod state;
+mod status;
+pub mod theme;
+mod transport;
+mod view;
+mod widgets;
+
+pub use overlay::Ranges;
+pub use shell::{Shell, ShellOutput};
+pub use theme::Theme;

@@ -1,0 +1,100 @@
+//! The list of scenes: type to find one, open a file by its path, save under a path.
+
+use super::state::{Field, State};
+use super::{theme, widgets};
+use crate::app::{Command, Frame};
+use crate::scene::Shipped;
+use egui::{Key, ScrollArea, TextEdit, Ui};
+
+/// The sections "Scenes" and "Save as…".
+pub fn show(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
+    widgets::section(ui, "Scenes", true, |ui| list(ui, frame, scenes, state, commands));
+    widgets::section(ui, "Save", true, |ui| save(ui, state, commands));
+}
+
+/// The scenes whose name or title holds every word of `filter`, in their order.
+pub fn found<'a>(scenes: &'a [Shipped], filter: &str) -> Vec<&'a Shipped> {
+    let words: Vec<String> = filter.split_whitespace().map(str::to_lowercase).collect();
+    let holds = |scene: &&Shipped| {
+        let text = format!("{} {}", scene.name, scene.title).to_lowercase();
+        words.iter().all(|word| text.contains(word.as_str()))
+    };
+    scenes.iter().filter(holds).collect()
+}
+
+/// What Enter opens: the first scene found, or the text itself if it looks like the path of a file.
+pub fn target(scenes: &[Shipped], filter: &str) -> Option<String> {
+    let text = filter.trim();
+    let is_path = text.contains('/') || text.contains('\\') || text.ends_with(".ron");
+    if is_path {
+        return Some(text.to_owned());
+    }
+    let exact = scenes.iter().find(|scene| scene.name == text);
+    exact.or(found(scenes, text).first().copied()).map(|scene| scene.name.to_owned())
+}
+
+fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
+    let hint = "Name of a scene, or path of a file";
+    let edit = TextEdit::singleline(&mut state.scene_filter).hint_text(hint).desired_width(f32::INFINITY);
+    let response = ui.add(edit).accessible_name("Find a scene");
+    if state.takes_focus(Field::SceneFilter) {
+        response.request_focus();
+    }
+    let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    response.on_hover_text("Type part of a name, or the path of a scene file; Enter opens. [Ctrl-O]");
+    if entered && let Some(name) = target(scenes, &state.scene_filter) {
+        commands.push(Command::Open(name));
+        state.scene_filter.clear();
+        state.focus = Some(Field::Canvas);
+    }
+    let found = found(scenes, &state.scene_filter);
+    if found.is_empty() && !scenes.is_empty() {
+        widgets::note(ui, "No scene of that name. Enter opens a path such as ./bridge.ron.");
+    }
+    let height = (ui.available_height() - 88.0).max(4.0 * theme::ROW);
+    ScrollArea::vertical().id_salt("scenes").max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for scene in found {
+            let here = scene.name == frame.scene.name;
+            if entry(ui, scene, here) {
+                commands.push(Command::Open(scene.name.to_owned()));
+                state.focus = Some(Field::Canvas);
+            }
+        }
+    });
+}
+
+fn entry(ui: &mut Ui, scene: &Shipped, here: bool) -> bool {
+    let button = egui::Button::selectable(here, scene.title).truncate();
+    let response = ui.add_sized([ui.available_width(), theme::ROW], LeftAligned(button));
+    response.on_hover_text(format!("Opens \"{}\". [ and ] go through the list.", scene.name)).clicked()
+}
+
+/// `add_sized` centres; a list reads better from the left.
+struct LeftAligned<'a>(egui::Button<'a>);
+
+impl egui::Widget for LeftAligned<'_> {
+    fn ui(self, ui: &mut Ui) -> egui::Response {
+        let size = egui::vec2(ui.available_width(), theme::ROW);
+        let layout = egui::Layout::top_down_justified(egui::Align::LEFT);
+        ui.allocate_ui_with_layout(size, layout, |ui| ui.add(self.0.min_size(size))).inner
+    }
+}
+
+fn save(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        let width = ui.available_width() - 76.0;
+        let edit = TextEdit::singleline(&mut state.save_path).hint_text("Path of a file").desired_width(width);
+        let response = ui.add(edit).accessible_name("Path to save to");
+        if state.takes_focus(Field::SavePath) {
+            response.request_focus();
+        }
+        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        response.on_hover_text("File to write the scene to, as it stands; `tautline check` reads it too. [Ctrl-S]");
+        let button = ui.button("Save as…").on_hover_text("Writes the scene as it stands to this file. [Ctrl-S]");
+        if (entered || button.clicked()) && !state.save_path.trim().is_empty() {
+            commands.push(Command::SaveAs(state.save_path.trim().into()));
+            state.focus = Some(Field::Canvas);
+        }
+    });
+}

@@ -1,0 +1,244 @@
+//! The panel of the world and of the way it is stepped: gravity, drag, materials, time step, integrator, solver.
+
+use super::format;
+use super::widgets::{self, Number};
+use crate::app::{Command, Frame};
+use crate::engine::{DVec2, Integrator, Method, Solver, Tuning};
+use egui::Ui;
+
+/// What a double-click resets to: the values with which the scene was opened.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Defaults {
+    /// Name of the scene.
+    scene: String,
+    method: Method,
+    gravity: DVec2,
+    drag: f64,
+    tuning: Tuning,
+}
+
+impl Defaults {
+    /// Takes the values of `frame` if it shows another scene than the one known.
+    pub fn follow(&mut self, frame: &Frame) {
+        if self.scene != frame.scene.name {
+            let world = &frame.world;
+            *self = Defaults {
+                scene: frame.scene.name.clone(),
+                method: frame.method,
+                gravity: world.gravity(),
+                drag: world.drag(),
+                tuning: world.tuning(),
+            };
+        }
+    }
+}
+
+fn gravity_number(name: &'static str) -> Number {
+    Number {
+        name,
+        unit: "m/s²",
+        range: -30.0..=30.0,
+        help: "Acceleration of every dynamic body; y points up, so the earth's is −9.81 along y.",
+        logarithmic: false,
+        decimals: 2,
+    }
+}
+
+const DRAG: Number = Number {
+    name: "Drag",
+    unit: "1/s",
+    range: 0.0..=10.0,
+    help: "Rate at which free motion dies away: v' = −drag · v.",
+    logarithmic: true,
+    decimals: 3,
+};
+
+const RESTITUTION: Number = Number {
+    name: "Restitution",
+    unit: "",
+    range: 0.0..=1.0,
+    help: "Part of the speed that a bounce gives back, of every contact at once. 0: no bounce, 1: all of it.",
+    logarithmic: false,
+    decimals: 2,
+};
+
+const FRICTION: Number = Number {
+    name: "Friction",
+    unit: "",
+    range: 0.0..=2.0,
+    help: "Coulomb's coefficient of every contact at once: the tangential force is at most this times the normal force.",
+    logarithmic: false,
+    decimals: 2,
+};
+
+const STIFFNESS: Number = Number {
+    name: "Stiffness",
+    unit: "×",
+    range: 0.01..=100.0,
+    help: "Factor on the stiffness of every spring. 1: as built.",
+    logarithmic: true,
+    decimals: 2,
+};
+
+const RATE: Number = Number {
+    name: "Step rate",
+    unit: "Hz",
+    range: 10.0..=1000.0,
+    help: "Steps a second of simulated time; a step lasts 1/rate. More steps: more exact, more work.",
+    logarithmic: true,
+    decimals: 1,
+};
+
+const STEP: Number = Number {
+    name: "Time step",
+    unit: "ms",
+    range: 1.0..=100.0,
+    help: "Length of a step: 1000/rate. Shorter: more exact, more work.",
+    logarithmic: true,
+    decimals: 3,
+};
+
+const SUBSTEPS: Number = Number {
+    name: "Substeps",
+    unit: "",
+    range: 1.0..=64.0,
+    help: "Parts that a step is cut into; each detects, solves and moves anew. Often better than more iterations.",
+    logarithmic: true,
+    decimals: 0,
+};
+
+const ITERATIONS: Number = Number {
+    name: "Iterations",
+    unit: "",
+    range: 1.0..=1000.0,
+    help: "Sweeps of the solver over all constraints and contacts in a substep. More: stiffer, more work.",
+    logarithmic: true,
+    decimals: 0,
+};
+
+const BAUMGARTE: Number = Number {
+    name: "Baumgarte",
+    unit: "",
+    range: 0.0..=1.0,
+    help: "Part of the position error that PGS feeds back in a substep. Too much shakes, too little drifts.",
+    logarithmic: false,
+    decimals: 2,
+};
+
+/// One line on an integrator.
+pub fn integrator_help(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::ExplicitEuler => {
+            "Position and velocity both from the old state. Order 1; gains energy, so it explodes sooner or later."
+        }
+        Integrator::SemiImplicitEuler => {
+            "Velocity first, then position with the new velocity. Order 1, symplectic: the energy swings but does not drift."
+        }
+        Integrator::PositionVerlet => "Half a drift, a kick, half a drift. Order 2, symplectic; one force evaluation.",
+        Integrator::VelocityVerlet => {
+            "Half a kick, a drift, half a kick. Order 2, symplectic; velocities and positions at the same instant."
+        }
+    }
+}
+
+/// One line on a solver.
+pub fn solver_help(solver: Solver) -> &'static str {
+    match solver {
+        Solver::Projection => {
+            "Moves the predicted positions onto each constraint in turn. Robust; stiffness depends on the iterations."
+        }
+        Solver::Pgs => {
+            "Solves for impulses on the velocities, in turn, within bounds. Warm starts from the last multipliers."
+        }
+    }
+}
+
+/// The sections "World", "Materials" and "Solver".
+pub fn show(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Command>) {
+    widgets::section(ui, "World", true, |ui| world(ui, frame, defaults, commands));
+    widgets::section(ui, "Materials", true, |ui| materials(ui, frame, defaults, commands));
+    widgets::section(ui, "Solver", true, |ui| solver(ui, frame, defaults, commands));
+}
+
+fn world(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Command>) {
+    let mut gravity = frame.world.gravity();
+    let x = widgets::slider(ui, &gravity_number("Gravity x"), &mut gravity.x, Some(defaults.gravity.x));
+    let y = widgets::slider(ui, &gravity_number("Gravity y"), &mut gravity.y, Some(defaults.gravity.y));
+    if x.changed || y.changed {
+        commands.push(Command::Gravity(gravity));
+    }
+    let mut drag = frame.world.drag();
+    if widgets::slider(ui, &DRAG, &mut drag, Some(defaults.drag)).changed {
+        commands.push(Command::Drag(drag));
+    }
+}
+
+fn materials(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Command>) {
+    let mut tuning = frame.world.tuning();
+    let mut changed = overriding(ui, &RESTITUTION, &mut tuning.restitution, 0.5);
+    changed |= overriding(ui, &FRICTION, &mut tuning.friction, 0.5);
+    changed |= widgets::slider(ui, &STIFFNESS, &mut tuning.stiffness, Some(defaults.tuning.stiffness)).changed;
+    if changed {
+        commands.push(Command::Tuning(tuning));
+    }
+}
+
+/// A switch between "as built" and one value for everything, and that value's slider.
+fn overriding(ui: &mut Ui, number: &Number, value: &mut Option<f64>, first: f64) -> bool {
+    let mut everywhere = value.is_some();
+    let label = format!("Override {}", number.name.to_lowercase());
+    let help = format!("One value for every contact, in place of each body's and wall's own. {}", number.help);
+    let mut changed = widgets::switch(ui, &label, &mut everywhere, Some(false), &help);
+    if changed {
+        *value = everywhere.then_some(first);
+    }
+    if let Some(value) = value {
+        changed |= widgets::slider(ui, number, value, Some(first)).changed;
+    }
+    changed
+}
+
+fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Command>) {
+    let mut method = frame.method;
+    let mut changed = step_length(ui, &mut method, &defaults.method);
+    changed |= widgets::whole_slider(ui, &SUBSTEPS, &mut method.substeps, Some(defaults.method.substeps)).changed;
+    changed |= widgets::whole_slider(ui, &ITERATIONS, &mut method.iterations, Some(defaults.method.iterations)).changed;
+    changed |= kinds(ui, &mut method, &defaults.method);
+    if method.solver == Solver::Pgs {
+        let help = "Start each solve from the last multipliers: far fewer iterations for stacks and ropes.";
+        changed |= widgets::switch(ui, "Warm starting", &mut method.warm_start, Some(defaults.method.warm_start), help);
+        changed |= widgets::slider(ui, &BAUMGARTE, &mut method.baumgarte, Some(defaults.method.baumgarte)).changed;
+    }
+    if changed {
+        commands.push(Command::Method(method));
+    }
+    if !frame.plan.is_empty() {
+        widgets::note(ui, &frame.plan);
+    }
+}
+
+/// Rate and length of a step: the same number twice, as people think of either.
+fn step_length(ui: &mut Ui, method: &mut Method, defaults: &Method) -> bool {
+    let rate = widgets::slider(ui, &RATE, &mut method.hz, Some(defaults.hz));
+    let mut milliseconds = 1000.0 / method.hz;
+    let step = widgets::number(ui, &STEP, &mut milliseconds, Some(1000.0 / defaults.hz));
+    if step.changed {
+        method.hz = 1000.0 / milliseconds;
+    }
+    let substep = format::si(method.substep_seconds(), "s");
+    widgets::reading(ui, "Substep", substep, "Length of a substep: the step divided by the substeps.");
+    rate.changed || step.changed
+}
+
+fn kinds(ui: &mut Ui, method: &mut Method, defaults: &Method) -> bool {
+    let integrators = Integrator::ALL.map(|kind| (kind, kind.name(), integrator_help(kind)));
+    let help = "How positions and velocities are carried through a substep.";
+    let integrator =
+        widgets::choice(ui, "Integrator", &mut method.integrator, Some(defaults.integrator), &integrators, help);
+    widgets::note(ui, integrator_help(method.integrator));
+    let solvers = Solver::ALL.map(|kind| (kind, kind.name(), solver_help(kind)));
+    let help = "How constraints and contacts are solved within a substep.";
+    let solver = widgets::choice(ui, "Constraint solver", &mut method.solver, Some(defaults.solver), &solvers, help);
+    widgets::note(ui, solver_help(method.solver));
+    integrator || solver
+}

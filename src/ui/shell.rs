@@ -1,0 +1,249 @@
+//! The shell: every panel in its place around the canvas, in one pass over an immutable frame.
+
+use super::actions::{self, Scene};
+use super::finder::Found;
+use super::overlay::Ranges;
+use super::plots::Plots;
+use super::settings::Defaults;
+use super::state::{Field, State};
+use super::theme::{self, Theme};
+use super::{canvas, fault, finder, help, inspector, palette, scenes, settings, status, transport, view};
+use crate::app::{Action, Camera, Command, Edit, Feedback, Frame, Spawn, Tools};
+use crate::engine::{DVec2, Id};
+use crate::render::{Extra, ViewOptions};
+use crate::scene::{Shipped, shipped};
+use egui::{CentralPanel, Margin, Panel, Rect, ScrollArea, Ui};
+use std::sync::Arc;
+
+/// Everything that the window shows around the scene.
+#[derive(Default)]
+pub struct Shell {
+    pub(super) scenes: &'static [Shipped],
+    pub(super) tools: Tools,
+    pub(super) state: State,
+    defaults: Defaults,
+    plots: Plots,
+    /// Opening of the scene that the view was fitted to.
+    fitted: Option<u64>,
+    /// The theme that the context was last given.
+    applied: Option<Theme>,
+    /// Space moved the view while it was held.
+    space_panned: bool,
+    /// What the last edit had touched when a duplicate was asked for; its copies are selected when they appear.
+    duplicated: Option<Arc<Vec<Id>>>,
+}
+
+/// What came of a pass.
+#[derive(Clone, Debug)]
+pub struct ShellOutput {
+    /// For the simulation thread, in order.
+    pub commands: Vec<Command>,
+    /// Where the scene lies [points of the screen].
+    pub canvas: Rect,
+    /// What the picture is to show.
+    pub view: ViewOptions,
+    /// The window is to fill the screen, or to give it back.
+    pub full_screen: bool,
+}
+
+impl Shell {
+    /// A shell that lists the shipped scenes.
+    pub fn new() -> Shell {
+        Shell { scenes: shipped(), ..Shell::default() }
+    }
+
+    /// The tools of the canvas: what is selected, hovered, held.
+    pub fn tools(&self) -> &Tools {
+        &self.tools
+    }
+
+    /// What the user set in the window itself.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What the user sets in the window itself, for a window that starts otherwise.
+    pub fn state_mut(&mut self) -> &mut State {
+        &mut self.state
+    }
+
+    /// Selects these things and nothing else.
+    pub fn select(&mut self, ids: Vec<Id>) {
+        self.tools.select(ids);
+    }
+
+    /// Shows everything into the root `ui` and carries out what the user asks for. `ranges` are those of the picture.
+    pub fn show(&mut self, ui: &mut Ui, frame: &Arc<Frame>, camera: &mut Camera, ranges: Ranges) -> ShellOutput {
+        self.follow(ui, frame);
+        let mut commands = Vec::new();
+        let mut actions = actions::pressed(ui, &mut self.space_panned);
+        if self.state.panels {
+            self.panels(ui, frame, &mut actions, &mut commands);
+        }
+        let canvas = CentralPanel::no_frame().show(ui, |ui| self.canvas(ui, frame, camera, ranges, &mut actions)).inner;
+        commands.extend(canvas.commands);
+        fault::show(ui, frame, canvas.rect, &mut actions, &mut commands);
+        self.dialogs(ui, &mut actions, &mut commands);
+        let mut full_screen = false;
+        for action in actions {
+            let scene = &mut Scene { frame, camera, commands: &mut commands, full_screen: &mut full_screen };
+            self.act(action, scene);
+        }
+        self.note_duplicate(frame, &commands);
+        self.apply_theme(ui);
+        ShellOutput { commands, canvas: canvas.rect, view: self.view_options(camera), full_screen }
+    }
+
+    fn follow(&mut self, ui: &Ui, frame: &Arc<Frame>) {
+        self.defaults.follow(frame);
+        if let Some(before) = &self.duplicated
+            && !Arc::ptr_eq(before, &frame.touched)
+        {
+            self.tools.select(frame.touched.to_vec());
+            self.duplicated = None;
+        }
+        self.tools.follow(&frame.world);
+        if self.applied.is_none() {
+            // The keys that egui zooms its own text with zoom the scene here.
+            ui.ctx().options_mut(|options| options.zoom_with_keyboard = false);
+            self.apply_theme(ui);
+        }
+    }
+
+    fn apply_theme(&mut self, ui: &Ui) {
+        if self.applied != Some(self.state.theme) {
+            theme::apply(ui.ctx(), self.state.theme);
+            self.applied = Some(self.state.theme);
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn note_duplicate(&mut self, frame: &Frame, commands: &[Command]) {
+        if commands.iter().any(|command| matches!(command, Command::Edit(Edit::Duplicate(..)))) {
+            self.duplicated = Some(frame.touched.clone());
+        }
+    }
+
+    fn panels(&mut self, ui: &mut Ui, frame: &Frame, actions: &mut Vec<Action>, commands: &mut Vec<Command>) {
+        let colours = self.state.theme.colours();
+        let plate = |horizontal: i8, vertical: i8| {
+            egui::Frame::NONE.fill(colours.panel).inner_margin(Margin::symmetric(horizontal, vertical))
+        };
+        Panel::top("transport").exact_size(theme::TOP_BAR).frame(plate(12, 0)).show(ui, |ui| {
+            transport::show(ui, frame, &mut self.state.theme, actions, commands);
+        });
+        Panel::bottom("status")
+            .exact_size(theme::ROW + theme::GRID)
+            .frame(plate(12, 0))
+            .show(ui, |ui| status::show(ui, frame));
+        Panel::left("tools").default_size(216.0).size_range(180.0..=360.0).frame(plate(12, 8)).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                palette::show(ui, self.tools.tool(), actions);
+                scenes::show(ui, frame, self.scenes, &mut self.state, commands);
+            });
+        });
+        Panel::right("settings").default_size(304.0).size_range(272.0..=480.0).frame(plate(12, 8)).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                inspector::show(ui, frame, self.tools.selection(), commands);
+                settings::show(ui, frame, &self.defaults, commands);
+                view::show(ui, &mut self.state);
+            });
+        });
+        if self.state.plots {
+            Panel::bottom("plots")
+                .resizable(true)
+                .default_size(176.0)
+                .size_range(112.0..=480.0)
+                .frame(plate(12, 8))
+                .show(ui, |ui| {
+                    self.plots.show(ui, frame, &mut self.state);
+                });
+        }
+    }
+
+    fn canvas(
+        &mut self,
+        ui: &mut Ui,
+        frame: &Frame,
+        camera: &mut Camera,
+        ranges: Ranges,
+        actions: &mut Vec<Action>,
+    ) -> CanvasOutput {
+        let response = canvas::allocate(ui);
+        let rect = response.rect;
+        if self.state.takes_focus(Field::Canvas) {
+            response.request_focus();
+        }
+        camera.size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+        if self.fitted != Some(frame.scene.opened) {
+            self.fitted = Some(frame.scene.opened);
+            actions::fit_all(frame, camera);
+        }
+        let commands = canvas::handle(ui, &response, &mut self.tools, frame, camera);
+        canvas::context_menu(&response, &mut self.tools, frame, camera, actions);
+        canvas::decorate(ui, &response, &self.tools);
+        let overlay = self.state.overlay(frame, camera, ranges);
+        overlay.paint(ui, rect);
+        let hovered = self.tools.hovered().filter(|_| !self.tools.busy());
+        overlay.selection_label(ui, rect, self.tools.selection(), hovered);
+        overlay.read_out(ui, rect, hovered, response.hover_pos());
+        CanvasOutput { rect, commands }
+    }
+
+    fn dialogs(&mut self, ui: &Ui, actions: &mut Vec<Action>, commands: &mut Vec<Command>) {
+        if self.state.help && help::show(ui.ctx()) {
+            self.state.help = false;
+        }
+        match finder::show(ui.ctx(), self.scenes, &mut self.state) {
+            Some(Found::Action(action)) => actions.push(action),
+            Some(Found::Scene(name)) => commands.push(Command::Open(name)),
+            None => {}
+        }
+    }
+
+    fn view_options(&self, camera: &Camera) -> ViewOptions {
+        let view = self.state.view;
+        ViewOptions {
+            theme: self.state.theme.scene(),
+            grid: view.grid,
+            contacts: view.contacts,
+            velocities: view.velocities,
+            trails: view.trails,
+            tension: view.tension,
+            speed: view.speed,
+            selected: self.tools.selection().to_vec(),
+            hovered: self.tools.hovered(),
+            grip_cursor: None,
+            extra: extras(self.tools.feedback(camera)),
+        }
+    }
+}
+
+struct CanvasOutput {
+    rect: Rect,
+    commands: Vec<Command>,
+}
+
+/// The marks of the tool at work.
+fn extras(feedback: Feedback) -> Vec<Extra> {
+    match feedback {
+        Feedback::None | Feedback::Grip => Vec::new(),
+        Feedback::SelectionBox(min, max) => {
+            let corners = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
+            (0..4).map(|i| Extra::Line { from: corners[i], to: corners[(i + 1) % 4] }).collect()
+        }
+        Feedback::Slash(from, to) => vec![Extra::Cut { from, to }],
+        Feedback::Join { from, to, .. } => vec![Extra::Line { from, to }, Extra::Snap { at: to }],
+        Feedback::Wall(from, to) => vec![Extra::Line { from, to }, Extra::Snap { at: to }],
+        Feedback::Ghost { kind, at, size } => ghost(kind, at, size),
+    }
+}
+
+/// What is about to be added: its first body, and a second one where there are just two.
+fn ghost(kind: Spawn, at: DVec2, size: f64) -> Vec<Extra> {
+    let disc = |centre| Extra::Disc { centre, radius: size };
+    match kind {
+        Spawn::Particle | Spawn::Disc => vec![disc(at)],
+        Spawn::Rod | Spawn::Spring | Spawn::Rope | Spawn::Cloth | Spawn::Pile => vec![disc(at), Extra::Snap { at }],
+    }
+}

@@ -1,0 +1,115 @@
+//! What a user sets in the window itself: theme, panels, what is drawn, what is typed. None of it touches the simulation.
+
+use super::theme::Theme;
+
+/// What the picture shows besides the bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct View {
+    pub contacts: bool,
+    pub velocities: bool,
+    pub trails: bool,
+    /// Moving bodies coloured by their speed.
+    pub speed: bool,
+    /// Rods and springs coloured by their tension.
+    pub tension: bool,
+    pub grid: bool,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        View { contacts: false, velocities: false, trails: false, speed: false, tension: true, grid: true }
+    }
+}
+
+/// The plots at the bottom.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlotTab {
+    #[default]
+    Energy,
+    Violation,
+    StepTime,
+}
+
+impl PlotTab {
+    /// All of them, in the order of their tabs.
+    pub const ALL: [PlotTab; 3] = [PlotTab::Energy, PlotTab::Violation, PlotTab::StepTime];
+
+    /// The name shown to a user.
+    pub fn name(self) -> &'static str {
+        ["Energy", "Error", "Step time"][self as usize]
+    }
+
+    /// What it shows, for its tooltip.
+    pub fn help(self) -> &'static str {
+        [
+            "Kinetic, potential, elastic and total energy [J] over simulated time.",
+            "Worst violation of a rod, rope or pin and deepest overlap of two surfaces [m] over simulated time.",
+            "Time of a step [µs], split by stage, over simulated time.",
+        ][self as usize]
+    }
+}
+
+/// A text field that is to take the keyboard in the next pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Field {
+    SceneFilter,
+    SavePath,
+    ActionQuery,
+    /// Not a text field: the scene itself.
+    Canvas,
+}
+
+/// The palette of actions while it is open.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Finder {
+    pub query: String,
+    /// Which of the lines found is chosen.
+    pub chosen: usize,
+}
+
+/// Everything of the kind.
+#[derive(Clone, Debug)]
+pub struct State {
+    pub theme: Theme,
+    /// All panels at once, for Tab.
+    pub panels: bool,
+    pub plots: bool,
+    pub plot: PlotTab,
+    /// The violation plot's axis in powers of ten.
+    pub plot_log: bool,
+    pub view: View,
+    pub scene_filter: String,
+    pub save_path: String,
+    pub help: bool,
+    pub finder: Option<Finder>,
+    pub focus: Option<Field>,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        State {
+            theme: Theme::default(),
+            panels: true,
+            plots: true,
+            plot: PlotTab::default(),
+            plot_log: true,
+            view: View::default(),
+            scene_filter: String::new(),
+            save_path: "my scene.ron".into(),
+            help: false,
+            finder: None,
+            focus: Some(Field::Canvas),
+        }
+    }
+}
+
+impl State {
+    /// Whether `field` is to take the keyboard now; asks only once.
+    pub fn takes_focus(&mut self, field: Field) -> bool {
+        let takes = self.focus == Some(field);
+        if takes {
+            self.focus = None;
+        }
+        takes
+    }
+}

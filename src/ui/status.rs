@@ -1,0 +1,55 @@
+//! The bar at the bottom: counts, step time against its budget, real-time factor, tick and time, worst violation.
+
+use super::format::{count, si};
+use super::{theme, transport};
+use crate::app::Frame;
+use egui::{Align, Color32, Label, Layout, RichText, Ui};
+
+/// Shows the bar.
+pub fn show(ui: &mut Ui, frame: &Frame) {
+    let colours = theme::colours(ui);
+    let world = &frame.world;
+    ui.horizontal_centered(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0 * theme::GRID;
+        item(ui, "Bodies", count(world.bodies().len()), colours.text, "Bodies in the world.");
+        item(ui, "Constraints", count(world.constraints().len()), colours.text, "Rods, springs, ropes and pins.");
+        item(ui, "Contacts", count(frame.measures.contacts), colours.text, "Contacts that touch or carry a force.");
+        step_time(ui, frame);
+        let violation = si(frame.measures.violation_max, "m");
+        item(ui, "Error", violation, colours.text, "Worst violation of a rod, a taut rope or a pin [m].");
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let time = format!("{:.2} s", world.time());
+            item(ui, "Time", time, colours.text, "Simulated time.");
+            item(ui, "Step", count(world.tick() as usize), colours.text, "Steps taken.");
+            let (text, colour) = pace(frame, &colours);
+            ui.add(Label::new(RichText::new(text).color(colour)).truncate())
+                .on_hover_text("Simulated time against real time, over the last half second.");
+        });
+    });
+}
+
+fn step_time(ui: &mut Ui, frame: &Frame) {
+    let colours = theme::colours(ui);
+    let budget = 1e6 / (frame.method.hz * frame.speed.wanted.max(1e-6));
+    let over = frame.report.step_us > budget;
+    let text = format!("{} of {}", si(frame.report.step_us * 1e-6, "s"), si(budget * 1e-6, "s"));
+    let help = "Time that the last step took, of the time it may take to keep up with the wanted speed.";
+    item(ui, "Step time", text, if over { colours.warning } else { colours.text }, help);
+}
+
+fn pace(frame: &Frame, colours: &theme::Colours) -> (String, Color32) {
+    if !frame.running {
+        return ("Paused".into(), colours.weak);
+    }
+    let short = frame.speed.achieved < 0.95 * frame.speed.wanted;
+    (transport::real_time(frame.speed.achieved), if short { colours.warning } else { colours.text })
+}
+
+fn item(ui: &mut Ui, label: &str, value: String, colour: Color32, tooltip: &str) {
+    let weak = theme::colours(ui).weak;
+    let mut job = egui::text::LayoutJob::default();
+    let font = egui::FontId::proportional(theme::BODY);
+    job.append(label, 0.0, egui::TextFormat::simple(font.clone(), weak));
+    job.append(&value, 1.5 * theme::GRID, egui::TextFormat::simple(font, colour));
+    ui.add(Label::new(job)).on_hover_text(tooltip);
+}

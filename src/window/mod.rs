@@ -1,0 +1,77 @@
+//! The desktop window: winit's loop, which ties the simulation thread, the panels and the picture together, and the same
+//! picture off screen.
+
+mod desktop;
+mod panels;
+mod screen;
+mod shot;
+mod timing;
+
+pub use shot::{ShotOptions, shot};
+
+use crate::scene;
+use crate::ui::SceneEntry;
+use anyhow::{Context, anyhow};
+use desktop::{Desktop, Wake};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use timing::Timing;
+use winit::event_loop::EventLoop;
+
+/// What is opened if nothing is named.
+const FIRST_SCENE: &str = "bridge";
+
+/// Opens the sandbox on a shipped scene or a scene file, and returns when the window is closed.
+///
+/// # Errors
+/// One line each: no display, a missing system library, no graphics adapter, a scene that cannot be opened.
+pub fn run(scene: Option<&str>) -> anyhow::Result<()> {
+    let timing = Timing::start();
+    let name = scene.unwrap_or(FIRST_SCENE).to_owned();
+    // Read while the window and the graphics device are being set up.
+    let setup = std::thread::spawn(move || scene::open(&name));
+    let event_loop = event_loop()?;
+    let mut desktop = Desktop::new(event_loop.create_proxy(), setup, timing);
+    event_loop.run_app(&mut desktop).context("the window system ended the program")?;
+    desktop.finish()
+}
+
+/// Connects to the display.
+fn event_loop() -> anyhow::Result<EventLoop<Wake>> {
+    // winit panics where libxkbcommon-x11 is missing. Only its message is for a programmer, so it is not shown.
+    let shown = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let built = catch_unwind(AssertUnwindSafe(|| EventLoop::with_user_event().build()));
+    std::panic::set_hook(shown);
+    match built {
+        Ok(Ok(event_loop)) => Ok(event_loop),
+        Ok(Err(error)) => Err(anyhow!(
+            "no window can be opened: {}; start it in a desktop session, or use `tautline run` and `tautline shot`, which \
+             need no display",
+            one_line(&error.to_string())
+        )),
+        Err(_) => Err(anyhow!(
+            "no window can be opened: a library of the X window system is missing; on Debian or Ubuntu install \
+             libxkbcommon-x11-0, libxcursor1 and libxi6"
+        )),
+    }
+}
+
+/// An error from a library, without its line breaks.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The shipped scenes, as the panels list them.
+fn scene_entries() -> Vec<SceneEntry> {
+    let entry = |scene: &scene::Shipped| SceneEntry { name: scene.name.into(), title: scene.title.into() };
+    scene::shipped().iter().map(entry).collect()
+}
+
+/// Where between the last two states the picture stands, 0 … 1, `since` seconds after the later one was published.
+fn interpolation(frame: &crate::app::Frame, since: f64) -> f64 {
+    // Paused, the exact state is shown; after an edit there is no state before it.
+    if !frame.running || frame.previous_position.is_empty() {
+        return 1.0;
+    }
+    (since * frame.speed.wanted * frame.method.hz).clamp(0.0, 1.0)
+}
