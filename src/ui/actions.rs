@@ -131,9 +131,12 @@ fn speed(wanted: f64, factor: f64) -> f64 {
 /// Shows the scene's own view, or else everything.
 pub fn fit_all(frame: &Frame, camera: &mut Camera) {
     match frame.scene.view {
-        // A scene asks for a height; the margin that `fit` adds is part of it already.
+        // A scene asks for a height; the margin that `fit` adds is part of it already. On a narrow canvas the bodies must be
+        // seen too, unless they lie far out.
         Some((centre, height)) => {
-            let half = DVec2::new(0.0, height / 2.4);
+            let reach = pick::bounds(&frame.world, &frame.world.bodies().id)
+                .map_or(0.0, |(min, max)| (centre.x - min.x).max(max.x - centre.x).clamp(0.0, height));
+            let half = DVec2::new(reach, height / 2.4);
             camera.fit(centre - half, centre + half);
         }
         None => fit(frame, camera, &[]),

@@ -24,8 +24,12 @@ pub fn allocate(ui: &mut Ui) -> Response {
     ui.advance_cursor_after_rect(rect);
     let response = ui.interact(rect, id(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Scene canvas"));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(HELP));
     response
 }
+
+/// What a screen reader says of the canvas; a tooltip would hide the scene.
+const HELP: &str = "The scene. Drag a body to take hold of it, right-click for a menu, turn the wheel to zoom.";
 
 /// Hands the pass's events to the tools. Returns the commands that follow.
 pub fn handle(ui: &Ui, response: &Response, tools: &mut Tools, frame: &Frame, camera: &mut Camera) -> Vec<Command> {

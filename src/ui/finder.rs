@@ -64,7 +64,8 @@ pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Optio
     let mut finder = state.finder.take()?;
     let focus = state.takes_focus(Field::ActionQuery);
     let area = Modal::default_area(Id::unique("finder")).anchor(Align2::CENTER_TOP, vec2(0.0, 96.0));
-    let modal = Modal::new(Id::unique("finder")).area(area).show(ctx, |ui| {
+    let frame = egui::Frame::popup(&ctx.style_of(ctx.theme())).inner_margin(8);
+    let modal = Modal::new(Id::unique("finder")).area(area).frame(frame).show(ctx, |ui| {
         ui.set_width(480.0);
         let lines = find(&finder.query, scenes);
         let count = lines.len().min(LINES);
@@ -73,7 +74,7 @@ pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Optio
             ui.input(|input| i32::from(input.key_pressed(Key::ArrowDown)) - i32::from(input.key_pressed(Key::ArrowUp)));
         let edit =
             TextEdit::singleline(&mut finder.query).hint_text("Find an action or a scene").desired_width(f32::INFINITY);
-        let response = ui.add(edit).accessible_name("Find an action");
+        let response = ui.add(edit).accessible_name("Action or scene");
         if focus {
             response.request_focus();
         }

@@ -30,11 +30,16 @@ pub fn digits(value: f64) -> String {
     if value == 0.0 {
         "0".into()
     } else if !(1e-3..1e6).contains(&size) {
-        format!("{value:.2e}")
+        minus(format!("{value:.2e}"))
     } else {
         let decimals = (2.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
-        format!("{value:.decimals$}")
+        minus(format!("{value:.decimals$}"))
     }
+}
+
+/// The sign as it is printed: as wide as a plus.
+pub fn minus(text: String) -> String {
+    text.replace('-', "−")
 }
 
 /// A count with thin groups of three: "12 345".
@@ -57,11 +62,11 @@ mod tests {
     #[test]
     fn numbers_carry_the_prefix_that_reads_best() {
         assert_eq!(si(0.00123, "m"), "1.23 mm");
-        assert_eq!(si(-45_600.0, "N"), "-45.6 kN");
+        assert_eq!(si(-45_600.0, "N"), "−45.6 kN");
         assert_eq!(si(999.7, "J"), "1.00 kJ");
         assert_eq!(si(0.0, "m"), "0 m");
         assert_eq!(si(0.25, "kg"), "0.250 kg");
-        assert_eq!(si(1e-30, "m"), "1.00e-18 pm");
+        assert_eq!(si(1e-30, "m"), "1.00e−18 pm");
         assert_eq!(si(f64::NAN, "J"), "NaN J");
     }
 

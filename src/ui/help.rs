@@ -4,19 +4,23 @@ use super::theme;
 use crate::app::keys::ENTRIES;
 use egui::{Grid, Id, Label, Modal, RichText, ScrollArea, Ui};
 
-const MOUSE: [(&str, &str); 6] = [
-    ("Left drag", "The tool in use: take hold of a body, draw a box, slash, join."),
-    ("Right or middle drag, Space-drag", "Moves the view."),
-    ("Wheel, pinch", "Zooms to the pointer."),
-    ("Right click", "Menu of what is there."),
-    ("Shift", "Snaps to centres, ends, the grid, or 15°; adds to the selection. Alt turns snapping off."),
-    ("Double click on a value", "Back to the scene's own value."),
+const MOUSE: [(&str, &str, &str); 6] = [
+    ("Use the tool", "Left drag", "Takes hold of a body, draws a box, a slash, a wall; a click selects or adds."),
+    ("Move the view", "Right or middle drag", "Also with the left button while Space is held."),
+    ("Zoom", "Wheel, pinch", "The point under the pointer stays where it is."),
+    ("Menu", "Right click", "What can be done with what is there."),
+    ("Snap", "Shift", "To centres, ends and the grid, or in steps of 15°; adds to the selection. Alt turns it off."),
+    ("Reset a value", "Double click", "Back to the value with which the scene was opened."),
 ];
 
 /// Shows the help over everything. Returns whether it was closed.
 pub fn show(ctx: &egui::Context) -> bool {
-    let modal = Modal::new(Id::unique("help")).show(ctx, |ui| {
-        ui.set_width(560.0);
+    let room = ctx.content_rect().size() * 0.85;
+    let size = room.min(egui::vec2(720.0, 900.0));
+    let frame = egui::Frame::popup(&ctx.style_of(ctx.theme())).inner_margin(16);
+    let area = Modal::default_area(Id::unique("help")).default_size(size);
+    let modal = Modal::new(Id::unique("help")).area(area).frame(frame).show(ctx, |ui| {
+        ui.set_width(size.x);
         let mut close = false;
         ui.horizontal(|ui| {
             ui.heading("Help");
@@ -25,28 +29,27 @@ pub fn show(ctx: &egui::Context) -> bool {
             });
         });
         ui.add_space(2.0 * theme::GRID);
-        let height = ui.ctx().content_rect().height() * 0.75;
+        let height = size.y - 4.0 * theme::ROW;
         ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
-            table(ui, "mouse", MOUSE.iter().map(|(what, help)| ((*what).to_owned(), String::new(), *help)));
-            ui.add_space(3.0 * theme::GRID);
+            let mouse = MOUSE.iter().map(|(name, hand, help)| (*name, (*hand).to_owned(), *help));
             let keys = ENTRIES.iter().map(|entry| {
                 let keys: Vec<String> = entry.shortcuts.iter().map(ToString::to_string).collect();
-                (entry.name.to_owned(), keys.join("  "), entry.help)
+                (entry.name, keys.join("  "), entry.help)
             });
-            table(ui, "keys", keys);
+            table(ui, mouse.chain(keys));
         });
         close
     });
     modal.inner || modal.should_close()
 }
 
-fn table(ui: &mut Ui, id: &str, rows: impl Iterator<Item = (String, String, &'static str)>) {
-    let weak = theme::colours(ui).weak;
-    Grid::new(id).num_columns(3).spacing([4.0 * theme::GRID, theme::GRID]).striped(false).show(ui, |ui| {
+fn table(ui: &mut Ui, rows: impl Iterator<Item = (&'static str, String, &'static str)>) {
+    let colours = theme::colours(ui);
+    Grid::new("actions").num_columns(3).spacing([6.0 * theme::GRID, theme::GRID]).show(ui, |ui| {
         for (name, keys, help) in rows {
             ui.label(name);
-            ui.label(RichText::new(keys).color(theme::colours(ui).accent));
-            ui.add(Label::new(RichText::new(help).color(weak)).wrap());
+            ui.label(RichText::new(keys).color(colours.accent));
+            ui.add(Label::new(RichText::new(help).color(colours.weak)).wrap());
             ui.end_row();
         }
     });

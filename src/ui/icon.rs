@@ -1,6 +1,6 @@
 //! Icons, drawn as strokes in a square, so that they are sharp at every scale and need no glyph.
 
-use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 
 /// What can be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -267,10 +267,9 @@ impl Pen<'_> {
                 }
             }
             _ => {
-                self.arc((0.5, 0.5), 0.38, 0.0, 0.75);
-                let end = pos2(0.5, 0.12);
-                self.arc((0.68, 0.32), 0.27, 0.25, 0.63);
-                self.line(&[(end.x, end.y), (0.5, 0.12)]);
+                // A crescent: most of a circle, and the shadow's edge between its two ends.
+                self.arc((0.48, 0.52), 0.38, 0.07, 0.68);
+                self.arc((0.66, 0.32), 0.32, 0.28, 0.53);
             }
         }
     }

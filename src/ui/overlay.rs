@@ -23,7 +23,7 @@ pub struct Ranges {
 /// Distance of the legends from the canvas's edge [points].
 const EDGE: f32 = 16.0;
 /// Size of the tension legend's bar [points].
-const BAR: egui::Vec2 = vec2(160.0, 8.0);
+const BAR: egui::Vec2 = vec2(176.0, 8.0);
 
 /// Everything that is written over the scene.
 pub struct Overlay<'a> {
@@ -43,12 +43,14 @@ impl Overlay<'_> {
             self.grid_labels(&painter, canvas, &colours);
         }
         self.scale_bar(&painter, canvas, &colours);
-        let mut corner = canvas.right_top() + vec2(-EDGE, EDGE);
+        // One row along the lower edge: the upper one is kept for what went wrong.
+        let mut start = canvas.left_bottom() + vec2(56.0, -EDGE - 12.0);
         if self.view.tension && self.ranges.tension > 0.0 {
-            corner = self.tension_legend(&painter, corner, &colours);
+            self.tension_legend(&painter, start, &colours);
+            start.x += BAR.x + 2.0 * EDGE;
         }
         if self.view.velocities && self.ranges.speed > 0.0 {
-            self.velocity_legend(&painter, corner, &colours);
+            self.velocity_legend(&painter, start, &colours);
         }
     }
 
@@ -79,10 +81,9 @@ impl Overlay<'_> {
         text(painter, left.lerp(right, 0.5) - vec2(0.0, 4.0), Align2::CENTER_BOTTOM, &bar.text, colours.text);
     }
 
-    /// The diverging map with its ends and middle in newtons. Returns the corner for what comes below.
-    fn tension_legend(&self, painter: &Painter, corner: Pos2, colours: &Colours) -> Pos2 {
-        let title = text(painter, corner - vec2(BAR.x, 0.0), Align2::LEFT_TOP, "Tension", colours.text);
-        let bar = Rect::from_min_size(pos2(corner.x - BAR.x, title.bottom() + theme::GRID), BAR);
+    /// The diverging map with its ends and middle in newtons, its lower left corner at `start`.
+    fn tension_legend(&self, painter: &Painter, start: Pos2, colours: &Colours) {
+        let bar = Rect::from_min_size(start - vec2(0.0, BAR.y), BAR);
         let mut mesh = Mesh::default();
         const STEPS: u32 = 32;
         for i in 0..=STEPS {
@@ -99,18 +100,18 @@ impl Overlay<'_> {
         }
         painter.add(mesh);
         painter.rect_stroke(bar, 0.0, Stroke::new(1.0, colours.line), StrokeKind::Outside);
-        let below = vec2(0.0, 3.0);
+        let above = vec2(0.0, -3.0);
         let end = si(self.ranges.tension, "N");
-        let push = format!("−{end} push");
-        small(painter, bar.left_bottom() + below, Align2::LEFT_TOP, &push, colours.text);
-        small(painter, bar.center_bottom() + below + vec2(10.0, 0.0), Align2::CENTER_TOP, "0", colours.text);
-        let pull = small(painter, bar.right_bottom() + below, Align2::RIGHT_TOP, &format!("{end} pull"), colours.text);
-        pos2(corner.x, pull.bottom() + EDGE)
+        let (push, pull) = (format!("{end} push"), format!("{end} pull"));
+        small(painter, bar.left_top() + above, Align2::LEFT_BOTTOM, &push, colours.text);
+        small(painter, bar.center_top() + above, Align2::CENTER_BOTTOM, "0", colours.text);
+        small(painter, bar.right_top() + above, Align2::RIGHT_BOTTOM, &pull, colours.text);
     }
 
-    fn velocity_legend(&self, painter: &Painter, corner: Pos2, colours: &Colours) {
+    /// An arrow of the length that the range's end has, with that speed.
+    fn velocity_legend(&self, painter: &Painter, start: Pos2, colours: &Colours) {
         let length = VELOCITY_ARROW as f32;
-        let start = corner + vec2(-BAR.x, 6.0);
+        let start = start - vec2(0.0, 4.0);
         let colour = shown(self.theme.scene().palette().velocity);
         painter.arrow(start, vec2(length, 0.0), Stroke::new(1.75, colour));
         let label = si(self.ranges.speed, "m/s");

@@ -36,6 +36,7 @@ pub fn show(ui: &mut Ui, current: Tool, actions: &mut Vec<Action>) {
 fn grid(ui: &mut Ui, tools: &[(Tool, Icon)], current: Tool, actions: &mut Vec<Action>) {
     let width = ((ui.available_width() - theme::GRID) / 2.0).floor();
     for pair in tools.chunks(2) {
+        ui.add_space(theme::GRID);
         ui.horizontal(|ui| {
             for (tool, icon) in pair {
                 if button(ui, *tool, *icon, width, *tool == current) {

@@ -241,6 +241,12 @@ fn entry(ui: &mut Ui, colour: Color32, name: &str, value: &str, tooltip: &str) {
     });
 }
 
+/// A line every second, a label every five.
+fn seconds((from, to): (f64, f64)) -> Vec<GridMark> {
+    let step = |second: i64| if second % 5 == 0 { 5.0 } else { 1.0 };
+    (from.ceil() as i64..=to.floor() as i64).map(|s| GridMark { value: s as f64, step_size: step(s) }).collect()
+}
+
 /// A plot of the last twenty seconds with a fixed range upwards.
 fn plot<'a>(
     ui: &mut Ui,
@@ -254,7 +260,8 @@ fn plot<'a>(
     let margin = (high - low) * 0.05;
     let bounds = PlotBounds::from_min_max([end - PLOT_SECONDS, low - margin], [end, high + margin]);
     let colours = theme::colours(ui);
-    let size = ui.available_size();
+    // The last label of the time axis is centred on the plot's end.
+    let size = ui.available_size() - egui::vec2(4.0 * theme::GRID, 0.0);
     let response = Plot::new(name)
         .id(Id::unique(name))
         .width(size.x)
@@ -269,6 +276,7 @@ fn plot<'a>(
         .show_background(false)
         .grid_color(colours.weak)
         .y_axis_min_width(56.0)
+        .x_grid_spacer(|input| seconds(input.bounds))
         .x_axis_formatter(|mark, _| format!("{} s", mark.value))
         .y_axis_formatter(move |mark, _| label(mark))
         .sense(Sense::hover())

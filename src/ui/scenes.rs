@@ -34,7 +34,7 @@ pub fn target(scenes: &[Shipped], filter: &str) -> Option<String> {
 }
 
 fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
-    let hint = "Name of a scene, or path of a file";
+    let hint = "Name, or path of a file";
     let edit = TextEdit::singleline(&mut state.scene_filter).hint_text(hint).desired_width(f32::INFINITY);
     let response = ui.add(edit).accessible_name("Find a scene");
     if state.takes_focus(Field::SceneFilter) {

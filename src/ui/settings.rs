@@ -45,7 +45,7 @@ fn gravity_number(name: &'static str) -> Number {
 }
 
 const DRAG: Number = Number {
-    name: "Drag",
+    name: "Air drag",
     unit: "1/s",
     range: 0.0..=10.0,
     help: "Rate at which free motion dies away: v' = −drag · v.",
@@ -186,7 +186,7 @@ fn materials(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec
 /// A switch between "as built" and one value for everything, and that value's slider.
 fn overriding(ui: &mut Ui, number: &Number, value: &mut Option<f64>, first: f64) -> bool {
     let mut everywhere = value.is_some();
-    let label = format!("Override {}", number.name.to_lowercase());
+    let label = format!("Set {}", number.name.to_lowercase());
     let help = format!("One value for every contact, in place of each body's and wall's own. {}", number.help);
     let mut changed = widgets::switch(ui, &label, &mut everywhere, Some(false), &help);
     if changed {

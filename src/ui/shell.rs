@@ -26,7 +26,7 @@ pub struct Shell {
     /// Opening of the scene that the view was fitted to.
     fitted: Option<u64>,
     /// The theme that the context was last given.
-    applied: Option<Theme>,
+    applied: Theme,
     /// Space moved the view while it was held.
     space_panned: bool,
     /// What the last edit had touched when a duplicate was asked for; its copies are selected when they appear.
@@ -47,7 +47,7 @@ pub struct ShellOutput {
 }
 
 impl Shell {
-    /// A shell that lists the shipped scenes.
+    /// A shell that lists the shipped scenes. The context that it is shown in wants [`super::install`] first.
     pub fn new() -> Shell {
         Shell { scenes: shipped(), ..Shell::default() }
     }
@@ -74,7 +74,7 @@ impl Shell {
 
     /// Shows everything into the root `ui` and carries out what the user asks for. `ranges` are those of the picture.
     pub fn show(&mut self, ui: &mut Ui, frame: &Arc<Frame>, camera: &mut Camera, ranges: Ranges) -> ShellOutput {
-        self.follow(ui, frame);
+        self.follow(frame);
         let mut commands = Vec::new();
         let mut actions = actions::pressed(ui, &mut self.space_panned);
         if self.state.panels {
@@ -94,7 +94,7 @@ impl Shell {
         ShellOutput { commands, canvas: canvas.rect, view: self.view_options(camera), full_screen }
     }
 
-    fn follow(&mut self, ui: &Ui, frame: &Arc<Frame>) {
+    fn follow(&mut self, frame: &Arc<Frame>) {
         self.defaults.follow(frame);
         if let Some(before) = &self.duplicated
             && !Arc::ptr_eq(before, &frame.touched)
@@ -103,17 +103,12 @@ impl Shell {
             self.duplicated = None;
         }
         self.tools.follow(&frame.world);
-        if self.applied.is_none() {
-            // The keys that egui zooms its own text with zoom the scene here.
-            ui.ctx().options_mut(|options| options.zoom_with_keyboard = false);
-            self.apply_theme(ui);
-        }
     }
 
     fn apply_theme(&mut self, ui: &Ui) {
-        if self.applied != Some(self.state.theme) {
+        if self.applied != self.state.theme {
             theme::apply(ui.ctx(), self.state.theme);
-            self.applied = Some(self.state.theme);
+            self.applied = self.state.theme;
             ui.ctx().request_repaint();
         }
     }

@@ -1,6 +1,8 @@
 //! The tokens of the look: sizes, colours and type, each in one place, for the dark and the light theme.
 
-use egui::{Color32, CornerRadius, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, Visuals};
+use egui::{
+    Color32, CornerRadius, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, Visuals,
+};
 
 /// Everything is a multiple of this [points].
 pub const GRID: f32 = 4.0;
@@ -29,11 +31,10 @@ pub enum Theme {
     Light,
 }
 
-/// The colours of a theme. Greys are neutral and the viewport is the darkest (in the light theme the lightest) of them, so
-/// that saturated colour belongs to the physics; the accent alone marks what is chosen.
+/// The colours of a theme's panels; the scene has its own in `render::colour`. Greys are neutral, so that saturated colour
+/// belongs to the physics; the accent alone marks what is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colours {
-    pub viewport: Color32,
     pub panel: Color32,
     /// Behind a value that can be edited.
     pub field: Color32,
@@ -90,7 +91,6 @@ const fn rgb(r: u8, g: u8, b: u8) -> Color32 {
 }
 
 const DARK: Colours = Colours {
-    viewport: grey(16),
     panel: grey(30),
     field: grey(44),
     hover: grey(58),
@@ -114,7 +114,6 @@ const DARK: Colours = Colours {
 };
 
 const LIGHT: Colours = Colours {
-    viewport: grey(252),
     panel: grey(240),
     field: grey(255),
     hover: grey(226),
@@ -133,6 +132,17 @@ const LIGHT: Colours = Colours {
 /// The colours of the theme that `ui` is drawn in.
 pub fn colours(ui: &egui::Ui) -> Colours {
     if ui.visuals().dark_mode { DARK } else { LIGHT }
+}
+
+/// Gives `ctx` its fonts and `theme`. To be called before the first pass, which would else be laid out with egui's own style.
+pub fn install(ctx: &egui::Context, theme: Theme) {
+    let mut fonts = FontDefinitions::default();
+    // Arrows are in the monospaced font only.
+    fonts.families.entry(FontFamily::Proportional).or_default().push("Hack".to_owned());
+    ctx.set_fonts(fonts);
+    // The keys that egui zooms its own text with zoom the scene here.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
+    apply(ctx, theme);
 }
 
 /// Makes every widget of `ctx` follow the tokens.

@@ -136,7 +136,7 @@ fn drag<'a>(number: &Number, value: &'a mut f64) -> DragValue<'a> {
         .range(number.range.clone())
         .clamp_existing_to_range(false)
         .speed(speed)
-        .custom_formatter(move |value, _| trimmed(value, decimals))
+        .custom_formatter(move |value, _| super::format::minus(trimmed(value, decimals)))
         .suffix(suffix)
         .update_while_editing(false)
 }
@@ -159,18 +159,16 @@ pub fn row<R>(ui: &mut Ui, label: &str, changed: bool, content: impl FnOnce(&mut
     let colours = theme::colours(ui);
     let label_rect = Rect::from_min_size(rect.min, vec2(theme::LABEL_WIDTH, theme::ROW));
     let left = Layout::left_to_right(Align::Center);
-    let label = ui
-        .scope_builder(UiBuilder::new().max_rect(label_rect).layout(left), |ui| {
-            ui.add(Label::new(RichText::new(label).color(colours.weak)).truncate().sense(Sense::click()))
-        })
-        .inner;
+    let mut label_ui = ui.new_child(UiBuilder::new().max_rect(label_rect).layout(left));
+    let text = RichText::new(label).color(colours.weak);
+    let label = label_ui.add(Label::new(text).truncate().sense(Sense::click()));
     if changed {
         let dot = label_rect.right_center() - vec2(theme::GRID, 0.0);
         ui.painter().circle_filled(dot, 2.5, colours.accent);
     }
     let rest = Rect::from_min_max(label_rect.right_top() + vec2(theme::GRID, 0.0), rect.max);
     let right = Layout::right_to_left(Align::Center);
-    let inner = ui.scope_builder(UiBuilder::new().max_rect(rest).layout(right), content).inner;
+    let inner = content(&mut ui.new_child(UiBuilder::new().max_rect(rest).layout(right)));
     (label, inner)
 }
 
@@ -237,7 +235,7 @@ pub fn choice<T: Copy + PartialEq>(
         })
     });
     let label_response = label_response.on_hover_text(tooltip);
-    combo.response.accessible_name(label).on_hover_text(tooltip);
+    combo.response.labelled_by(label_response.id).on_hover_text(tooltip);
     if label_response.double_clicked()
         && let Some(reset) = reset
     {
@@ -280,7 +278,11 @@ pub fn section(ui: &mut Ui, title: &str, open: bool, content: impl FnOnce(&mut U
     ui.painter().hline(line.x_range(), line.top(), Stroke::new(1.0, theme::colours(ui).line));
     ui.add_space(theme::GRID);
     let heading = RichText::new(title).heading().color(theme::colours(ui).strong);
-    let header = egui::CollapsingHeader::new(heading).id_salt(title).default_open(open).show_unindented(ui, content);
+    let header = egui::CollapsingHeader::new(heading).id_salt(title).default_open(open).show_unindented(ui, |ui| {
+        // Rows are as high as they are far apart.
+        ui.spacing_mut().item_spacing.y = 0.0;
+        content(ui);
+    });
     header.header_response.on_hover_text(format!("{title}: click to fold or unfold."));
     ui.add_space(2.0 * theme::GRID);
 }
@@ -288,4 +290,5 @@ pub fn section(ui: &mut Ui, title: &str, open: bool, content: impl FnOnce(&mut U
 /// A paragraph in the colour of notes.
 pub fn note(ui: &mut Ui, text: &str) {
     ui.add(Label::new(RichText::new(text).small().color(theme::colours(ui).weak)).wrap());
+    ui.add_space(theme::GRID);
 }
