@@ -203,6 +203,9 @@ impl Sandbox {
         for command in shown.commands {
             self.session.send(command);
         }
+        if shown.quit {
+            event_loop.exit();
+        }
         if shown.full_screen {
             let full = self.window.fullscreen().is_none();
             self.window.set_fullscreen(full.then_some(Fullscreen::Borderless(None)));
@@ -257,6 +260,7 @@ pub(super) fn show(
         if let Some(earlier) = shown.take() {
             pass.commands.splice(0..0, earlier.commands);
             pass.full_screen |= earlier.full_screen;
+            pass.quit |= earlier.quit;
         }
         shown = Some(pass);
     });
