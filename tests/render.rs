@@ -9,7 +9,7 @@ use tautline::app::{Camera, Frame, SceneInfo, Speed};
 use tautline::engine::{Body, Constraint, DVec2, Grip, Id, Kind, Method, Motion, Spin, StepReport, Wall, World};
 use tautline::measure::Measures;
 use tautline::render::marks::DiscMark;
-use tautline::render::offscreen::{FORMAT, render};
+use tautline::render::offscreen::{FORMAT, begin_scene, render};
 use tautline::render::{Colour, Extra, Gpu, Image, Picture, Renderer, Theme, ViewOptions, Viewport};
 
 /// The device, made once for all tests; `None` where there is no adapter.
@@ -330,6 +330,19 @@ fn nothing_is_drawn_outside_the_canvas() {
     let viewport = Viewport { corner: [100.0, 0.0], ..viewport };
     let image = render(gpu, &mut renderer, &picture, &viewport, |_| {}).unwrap();
     assert_eq!(differing(&image, picture.background()), 0);
+}
+
+#[test]
+fn a_hook_draws_over_the_scene() {
+    let Some(gpu) = gpu() else { return };
+    let mut renderer = Renderer::new(&gpu.device, FORMAT);
+    let mut picture = Picture::new();
+    picture.push_disc(white_disc([0.0, 0.0], 500.0));
+    let red = Colour::hex(0xFF0000);
+    let image = render(gpu, &mut renderer, &picture, &Viewport::whole([16, 16], 1.0), |canvas| {
+        drop(begin_scene(canvas.encoder, canvas.target, red));
+    });
+    assert_eq!(differing(&image.unwrap(), red), 0);
 }
 
 #[test]

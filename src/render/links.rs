@@ -121,34 +121,36 @@ fn sag(across: DVec2, length: f64, down: DVec2) -> f64 {
     if spare > 0.0 { (0.375 * span * spare + 0.25 * spare * spare).sqrt() } else { 0.0 }
 }
 
-/// The proportions of a spring's coil, which belong to the spring and not to its present length.
+/// A spring's coil [points], which belongs to the spring and not to its present length.
 struct Coil {
+    /// Length at rest.
+    rest: f64,
     /// Grows with the root of the rest length, so that short and long springs both look like springs.
     windings: f64,
-    /// Half its width [m].
     half_width: f64,
 }
 
-fn coil(rest: f64, distance: f64) -> Coil {
+/// The coil of a spring of `rest` [m] that is `length` [points] long now.
+fn coil(rest: f64, length: f64, scale: f64) -> Coil {
     // A spring that rests at length 0 has no size of its own; it is given that of a spring a third as long as it is now.
-    let rest = if rest > 0.0 { rest } else { distance / 3.0 };
+    let rest = if rest > 0.0 { rest } else { length / scale / 3.0 };
     let windings = (9.0 * rest.sqrt()).round().clamp(4.0, 40.0);
-    Coil { windings, half_width: 0.75 * rest / windings }
+    Coil { rest: rest * scale, windings, half_width: 0.75 * rest * scale / windings }
 }
 
 fn draw_spring(picture: &mut Picture, scene: &Scene<'_>, index: usize, rest: f64) {
+    /// Room that a winding needs at rest to be told from its neighbours [points].
+    const WINDING: f64 = 6.0;
     let [from, to] = ends(scene, index);
     let length = (to - from).length();
-    let Coil { windings, half_width } = coil(rest, length / scene.view.scale);
-    let half_width = half_width * scene.view.scale;
+    let Coil { rest, windings, half_width } = coil(rest, length, scene.view.scale);
     let wire = (0.2 * half_width).clamp(1.5, 3.0);
     let colour = colour(scene, index);
-    // Too small for its windings to be told apart.
-    if half_width < wire || length < 4.0 * wire {
+    if rest < WINDING * windings || length < 4.0 * wire {
         picture.line(&scene.view, [from, to], wire as f32, Ends::Round, colour);
         return;
     }
-    let stub = (0.08 * rest * scene.view.scale).max(2.0 * wire).min(0.2 * length);
+    let stub = (0.08 * rest).max(2.0 * wire).min(0.2 * length);
     if length > LONGEST_SPRING {
         draw_long_spring(picture, scene, [from, to], Wire { stub, half_width, windings, width: wire as f32, colour });
         return;
