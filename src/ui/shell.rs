@@ -62,6 +62,11 @@ impl Shell {
         &self.state
     }
 
+    /// What the user sets in the window itself, for a window that starts otherwise.
+    pub fn state_mut(&mut self) -> &mut State {
+        &mut self.state
+    }
+
     /// Selects these things and nothing else.
     pub fn select(&mut self, ids: Vec<Id>) {
         self.tools.select(ids);

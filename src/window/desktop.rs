@@ -1,8 +1,8 @@
 //! The event loop's side of the window: opens it, hands events to the panels, and draws when there is a reason to.
 
+use super::interpolation;
 use super::screen::{Screen, View};
 use super::timing::Timing;
-use super::{interpolation, scene_entries};
 use crate::app::{Camera, Command, Frame, Session};
 use crate::engine::DVec2;
 use crate::scene::{SceneError, Setup};
@@ -90,7 +90,7 @@ impl Desktop {
             input,
             screen,
             session,
-            shell: Shell::new(scene_entries()),
+            shell: Shell::new(),
             camera: Camera { centre: DVec2::ZERO, scale: 100.0, size: DVec2::new(SIZE.width, SIZE.height) },
             drawn: Instant::now(),
             title: String::new(),

@@ -10,7 +10,6 @@ mod timing;
 pub use shot::{ShotOptions, shot};
 
 use crate::scene;
-use crate::ui::SceneEntry;
 use anyhow::{Context, anyhow};
 use desktop::{Desktop, Wake};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -59,12 +58,6 @@ fn event_loop() -> anyhow::Result<EventLoop<Wake>> {
 /// An error from a library, without its line breaks.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// The shipped scenes, as the panels list them.
-fn scene_entries() -> Vec<SceneEntry> {
-    let entry = |scene: &scene::Shipped| SceneEntry { name: scene.name.into(), title: scene.title.into() };
-    scene::shipped().iter().map(entry).collect()
 }
 
 /// Where between the last two states the picture stands, 0 … 1, `since` seconds after the later one was published.

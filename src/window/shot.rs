@@ -2,7 +2,6 @@
 
 use super::desktop::show;
 use super::panels::Panels;
-use super::scene_entries;
 use super::screen::viewport;
 use crate::app::{Camera, Frame, frame_after};
 use crate::engine::DVec2;
@@ -51,7 +50,7 @@ pub fn draw(frame: &Arc<Frame>, options: &ShotOptions) -> anyhow::Result<Image> 
     let mut picture = Picture::new();
     let mut panels = Panels::new(&gpu.device, FORMAT);
     let egui = egui::Context::default();
-    let mut shell = Shell::new(scene_entries());
+    let mut shell = Shell::new();
     let state = shell.state_mut();
     state.panels = options.whole_window;
     state.theme = if options.light { Theme::Light } else { Theme::Dark };
