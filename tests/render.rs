@@ -37,6 +37,8 @@ fn frame(world: World) -> Frame {
         fault: None,
         undo: None,
         redo: None,
+        plots: tautline::app::Plots::default(),
+        touched: std::sync::Arc::default(),
     }
 }
 

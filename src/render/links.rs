@@ -300,12 +300,14 @@ mod tests {
             method: Method::default(),
             report: StepReport::default(),
             measures: Measures::default(),
+            plots: crate::app::Plots::default(),
             plan: String::new(),
             running: true,
             speed: Speed { wanted: 1.0, achieved: 1.0 },
             fault: None,
             undo: None,
             redo: None,
+            touched: std::sync::Arc::default(),
         };
         let camera = Camera { centre: DVec2::ZERO, scale: 50.0, size: DVec2::new(400.0, 300.0) };
         let mut picture = Picture::new();

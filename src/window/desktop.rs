@@ -84,13 +84,15 @@ impl Desktop {
             let _ = proxy.send_event(Wake::Frame);
         };
         let session = Session::start(setup, wake).context("the simulation thread cannot be started")?;
+        let mut shell = Shell::new();
+        shell.prepare(&egui);
         Ok(Sandbox {
             window,
             egui,
             input,
             screen,
             session,
-            shell: Shell::new(),
+            shell,
             camera: Camera { centre: DVec2::ZERO, scale: 100.0, size: DVec2::new(SIZE.width, SIZE.height) },
             drawn: Instant::now(),
             title: String::new(),

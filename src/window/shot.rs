@@ -54,6 +54,7 @@ pub fn draw(frame: &Arc<Frame>, options: &ShotOptions) -> anyhow::Result<Image> 
     let state = shell.state_mut();
     state.panels = options.whole_window;
     state.theme = if options.light { Theme::Light } else { Theme::Dark };
+    shell.prepare(&egui);
     let [width, height] = options.size.map(|side| side as f32);
     let mut camera =
         Camera { centre: DVec2::ZERO, scale: 100.0, size: DVec2::new(f64::from(width), f64::from(height)) };
