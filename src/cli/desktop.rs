@@ -1,28 +1,20 @@
 //! The commands that draw. A build without the feature `desktop` has none of that and says so.
 
 use super::ShotArguments;
-use crate::scene;
 
-/// Opens the sandbox, on the first shipped scene if none is named. A scene that is wrong is refused before a window opens.
-pub(super) fn open(name: Option<&str>) -> anyhow::Result<()> {
-    if let Some(name) = name {
-        scene::open(name)?;
+/// Opens the sandbox. A scene that is wrong is refused before any window is asked for.
+#[cfg(feature = "desktop")]
+pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
+    if let Some(scene) = scene {
+        crate::scene::open(scene)?;
     }
-    window(name)
+    crate::window::run(scene)
 }
 
 /// Writes a picture.
+#[cfg(feature = "desktop")]
 pub(super) fn shot(arguments: &ShotArguments) -> anyhow::Result<()> {
-    picture(scene::open(&arguments.scene)?, arguments)
-}
-
-#[cfg(feature = "desktop")]
-fn window(name: Option<&str>) -> anyhow::Result<()> {
-    crate::window::run(name)
-}
-
-#[cfg(feature = "desktop")]
-fn picture(setup: scene::Setup, arguments: &ShotArguments) -> anyhow::Result<()> {
+    let setup = crate::scene::open(&arguments.scene)?;
     let options = crate::window::ShotOptions {
         at: arguments.at,
         size: arguments.size,
@@ -33,13 +25,19 @@ fn picture(setup: scene::Setup, arguments: &ShotArguments) -> anyhow::Result<()>
     crate::window::shot(setup, &options)
 }
 
+/// Opens nothing, and says why.
 #[cfg(not(feature = "desktop"))]
-fn window(_name: Option<&str>) -> anyhow::Result<()> {
+pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
+    if let Some(scene) = scene {
+        crate::scene::open(scene)?;
+    }
     no_window()
 }
 
+/// Draws nothing, and says why.
 #[cfg(not(feature = "desktop"))]
-fn picture(_setup: scene::Setup, _arguments: &ShotArguments) -> anyhow::Result<()> {
+pub(super) fn shot(arguments: &ShotArguments) -> anyhow::Result<()> {
+    crate::scene::open(&arguments.scene)?;
     no_window()
 }
 
