@@ -18,3 +18,5 @@ pub mod render;
 pub mod scene;
 #[cfg(feature = "desktop")]
 pub mod ui;
+#[cfg(feature = "desktop")]
+pub mod window;

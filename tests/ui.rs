@@ -78,7 +78,7 @@ fn builder() -> HarnessBuilder<Desk> {
         .with_size(SIZE)
         .with_max_steps(60)
         .with_step_dt(1.0 / 60.0)
-        .with_context_setup(|ctx| tautline::ui::install(ctx, Theme::Dark))
+        .with_context_setup(|ctx| Shell::new().prepare(ctx))
 }
 
 fn harness(frame: Frame) -> Harness<'static, Desk> {

@@ -2,7 +2,31 @@
 
 use super::ShotArguments;
 
-/// Opens the sandbox.
+/// Opens the sandbox. A scene that is wrong is refused before any window is asked for.
+#[cfg(feature = "desktop")]
+pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
+    if let Some(scene) = scene {
+        crate::scene::open(scene)?;
+    }
+    crate::window::run(scene)
+}
+
+/// Writes a picture.
+#[cfg(feature = "desktop")]
+pub(super) fn shot(arguments: &ShotArguments) -> anyhow::Result<()> {
+    let setup = crate::scene::open(&arguments.scene)?;
+    let options = crate::window::ShotOptions {
+        at: arguments.at,
+        size: arguments.size,
+        path: arguments.file.clone(),
+        light: arguments.theme == "light",
+        whole_window: arguments.window,
+    };
+    crate::window::shot(setup, &options)
+}
+
+/// Opens nothing, and says why.
+#[cfg(not(feature = "desktop"))]
 pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
     if let Some(scene) = scene {
         crate::scene::open(scene)?;
@@ -10,12 +34,14 @@ pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
     no_window()
 }
 
-/// Writes a picture.
+/// Draws nothing, and says why.
+#[cfg(not(feature = "desktop"))]
 pub(super) fn shot(arguments: &ShotArguments) -> anyhow::Result<()> {
     crate::scene::open(&arguments.scene)?;
     no_window()
 }
 
+#[cfg(not(feature = "desktop"))]
 fn no_window() -> anyhow::Result<()> {
     anyhow::bail!(
         "this build has no window and draws no pictures: build it with the feature `desktop` (the default). \

@@ -25,4 +25,4 @@ mod widgets;
 
 pub use overlay::Ranges;
 pub use shell::{Shell, ShellOutput};
-pub use theme::{Theme, install};
+pub use theme::Theme;

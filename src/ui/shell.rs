@@ -26,7 +26,7 @@ pub struct Shell {
     /// Opening of the scene that the view was fitted to.
     fitted: Option<u64>,
     /// The theme that the context was last given.
-    applied: Theme,
+    applied: Option<Theme>,
     /// Space moved the view while it was held.
     space_panned: bool,
     /// What the last edit had touched when a duplicate was asked for; its copies are selected when they appear.
@@ -44,12 +44,27 @@ pub struct ShellOutput {
     pub view: ViewOptions,
     /// The window is to fill the screen, or to give it back.
     pub full_screen: bool,
+    /// The window is to close.
+    pub quit: bool,
 }
 
 impl Shell {
-    /// A shell that lists the shipped scenes. The context that it is shown in wants [`super::install`] first.
+    /// A shell that lists the shipped scenes.
     pub fn new() -> Shell {
         Shell { scenes: shipped(), ..Shell::default() }
+    }
+
+    /// Gives `ctx` the fonts and the theme. [`Shell::show`] does so too, but then the first pass is still laid out with
+    /// egui's own style.
+    pub fn prepare(&mut self, ctx: &egui::Context) {
+        if self.applied.is_none() {
+            theme::install(ctx);
+        }
+        if self.applied != Some(self.state.theme) {
+            theme::apply(ctx, self.state.theme);
+            self.applied = Some(self.state.theme);
+            ctx.request_repaint();
+        }
     }
 
     /// The tools of the canvas: what is selected, hovered, held.
@@ -62,6 +77,11 @@ impl Shell {
         &self.state
     }
 
+    /// What the user sets in the window itself, for a window that starts otherwise.
+    pub fn state_mut(&mut self) -> &mut State {
+        &mut self.state
+    }
+
     /// Selects these things and nothing else.
     pub fn select(&mut self, ids: Vec<Id>) {
         self.tools.select(ids);
@@ -69,6 +89,7 @@ impl Shell {
 
     /// Shows everything into the root `ui` and carries out what the user asks for. `ranges` are those of the picture.
     pub fn show(&mut self, ui: &mut Ui, frame: &Arc<Frame>, camera: &mut Camera, ranges: Ranges) -> ShellOutput {
+        self.prepare(ui.ctx());
         self.follow(frame);
         let mut commands = Vec::new();
         let mut actions = actions::pressed(ui, &mut self.space_panned);
@@ -79,14 +100,15 @@ impl Shell {
         commands.extend(canvas.commands);
         fault::show(ui, frame, canvas.rect, &mut actions, &mut commands);
         self.dialogs(ui, &mut actions, &mut commands);
-        let mut full_screen = false;
+        let (mut full_screen, mut quit) = (false, false);
         for action in actions {
-            let scene = &mut Scene { frame, camera, commands: &mut commands, full_screen: &mut full_screen };
+            let scene =
+                &mut Scene { frame, camera, commands: &mut commands, full_screen: &mut full_screen, quit: &mut quit };
             self.act(action, scene);
         }
         self.note_duplicate(frame, &commands);
-        self.apply_theme(ui);
-        ShellOutput { commands, canvas: canvas.rect, view: self.view_options(camera), full_screen }
+        self.prepare(ui.ctx());
+        ShellOutput { commands, canvas: canvas.rect, view: self.view_options(camera), full_screen, quit }
     }
 
     fn follow(&mut self, frame: &Arc<Frame>) {
@@ -98,14 +120,6 @@ impl Shell {
             self.duplicated = None;
         }
         self.tools.follow(&frame.world);
-    }
-
-    fn apply_theme(&mut self, ui: &Ui) {
-        if self.applied != self.state.theme {
-            theme::apply(ui.ctx(), self.state.theme);
-            self.applied = self.state.theme;
-            ui.ctx().request_repaint();
-        }
     }
 
     fn note_duplicate(&mut self, frame: &Frame, commands: &[Command]) {

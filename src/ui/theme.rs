@@ -134,15 +134,13 @@ pub fn colours(ui: &egui::Ui) -> Colours {
     if ui.visuals().dark_mode { DARK } else { LIGHT }
 }
 
-/// Gives `ctx` its fonts and `theme`. To be called before the first pass, which would else be laid out with egui's own style.
-pub fn install(ctx: &egui::Context, theme: Theme) {
+/// Gives `ctx` its fonts, and takes away the keys with which egui zooms its own text: they zoom the scene here.
+pub fn install(ctx: &egui::Context) {
     let mut fonts = FontDefinitions::default();
     // Arrows are in the monospaced font only.
     fonts.families.entry(FontFamily::Proportional).or_default().push("Hack".to_owned());
     ctx.set_fonts(fonts);
-    // The keys that egui zooms its own text with zoom the scene here.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
-    apply(ctx, theme);
 }
 
 /// Makes every widget of `ctx` follow the tokens.

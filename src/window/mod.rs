@@ -10,7 +10,6 @@ mod timing;
 pub use shot::{ShotOptions, shot};
 
 use crate::scene;
-use crate::ui::SceneEntry;
 use anyhow::{Context, anyhow};
 use desktop::{Desktop, Wake};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -29,7 +28,14 @@ pub fn run(scene: Option<&str>) -> anyhow::Result<()> {
     let name = scene.unwrap_or(FIRST_SCENE).to_owned();
     // Read while the window and the graphics device are being set up.
     let setup = std::thread::spawn(move || scene::open(&name));
-    let event_loop = event_loop()?;
+    let event_loop = match event_loop() {
+        Ok(event_loop) => event_loop,
+        Err(error) => {
+            // A scene that cannot be opened is the user's own and comes first.
+            desktop::join(setup)?;
+            return Err(error);
+        }
+    };
     let mut desktop = Desktop::new(event_loop.create_proxy(), setup, timing);
     event_loop.run_app(&mut desktop).context("the window system ended the program")?;
     desktop.finish()
@@ -59,12 +65,6 @@ fn event_loop() -> anyhow::Result<EventLoop<Wake>> {
 /// An error from a library, without its line breaks.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// The shipped scenes, as the panels list them.
-fn scene_entries() -> Vec<SceneEntry> {
-    let entry = |scene: &scene::Shipped| SceneEntry { name: scene.name.into(), title: scene.title.into() };
-    scene::shipped().iter().map(entry).collect()
 }
 
 /// Where between the last two states the picture stands, 0 … 1, `since` seconds after the later one was published.

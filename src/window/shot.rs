@@ -2,7 +2,6 @@
 
 use super::desktop::show;
 use super::panels::Panels;
-use super::scene_entries;
 use super::screen::viewport;
 use crate::app::{Camera, Frame, frame_after};
 use crate::engine::DVec2;
@@ -51,10 +50,11 @@ pub fn draw(frame: &Arc<Frame>, options: &ShotOptions) -> anyhow::Result<Image> 
     let mut picture = Picture::new();
     let mut panels = Panels::new(&gpu.device, FORMAT);
     let egui = egui::Context::default();
-    let mut shell = Shell::new(scene_entries());
+    let mut shell = Shell::new();
     let state = shell.state_mut();
     state.panels = options.whole_window;
     state.theme = if options.light { Theme::Light } else { Theme::Dark };
+    shell.prepare(&egui);
     let [width, height] = options.size.map(|side| side as f32);
     let mut camera =
         Camera { centre: DVec2::ZERO, scale: 100.0, size: DVec2::new(f64::from(width), f64::from(height)) };
