@@ -36,8 +36,10 @@ pub struct Stepper {
     /// Multipliers by constraint, and the grip's [N].
     force: Vec<DVec2>,
     grip_force: DVec2,
-    /// Positions and angles at detection, overlaps parted.
-    detected_at: (Vec<DVec2>, Vec<f64>),
+    /// Positions from which no wall may lie on the way to the end of the substep.
+    start: Vec<DVec2>,
+    /// Positions and angles that the contacts' gaps belong to.
+    planes_at: (Vec<DVec2>, Vec<f64>),
 }
 
 impl Stepper {
@@ -108,8 +110,8 @@ impl Stepper {
             self.detect::<SPIN>(world, h, report);
             laps.end(Stage::Detect);
         }
-        if self.plan.contacts {
-            self.detected_at.0.clone_from(&self.state.position);
+        if self.plan.contacts && !early {
+            self.start.clone_from(&self.state.position);
         }
         let scene = Scene { world, plan: &self.plan, h };
         if integrate::evaluates_first(integrator) {
@@ -152,19 +154,22 @@ impl Stepper {
         let (old, new) = (&self.old_contacts, &mut self.contacts);
         report.candidates += find_contacts(world, &self.plan, &self.broad, &self.state, h, old, new);
         self.pgs.assemble_contacts::<SPIN>(world, &self.contacts, &self.state);
-        self.detected_at.0.clone_from(&self.state.position);
-        self.detected_at.1.clone_from(&self.state.angle);
-        let part = self.method.baumgarte;
-        Planes::part_overlaps(&mut self.pgs.contacts, &self.detected_at.0, &mut self.state, part);
-        self.detected_at.0.clone_from(&self.state.position);
+        self.start.clone_from(&self.state.position);
+        Planes::part_overlaps(&mut self.pgs.contacts, &self.start, &mut self.state, self.method.baumgarte);
+        self.start.clone_from(&self.state.position);
         if self.plan.restitution {
-            let gravity = world.gravity.length();
-            report.impacts +=
-                self.impacts.resolve::<SPIN>(&self.pgs.contacts, &self.contacts, &mut self.state, h, gravity);
-            if self.method.solver == Solver::Pgs && integrate::drifts_first(self.method.integrator) {
-                self.impacts.drop_long_shifts(&world.bodies.radius);
-            }
+            let Method { solver, integrator, .. } = self.method;
+            let only_short_shifts = solver == Solver::Pgs && integrate::drifts_first(integrator);
+            report.impacts += self.impacts.resolve::<SPIN>(
+                &mut self.pgs.contacts,
+                &self.contacts,
+                &mut self.state,
+                (h, world.gravity.length()),
+                only_short_shifts,
+            );
         }
+        self.planes_at.0.clone_from(&self.state.position);
+        self.planes_at.1.clone_from(&self.state.angle);
     }
 
     /// PGS: rows, sweeps, then the drift with the velocities found.
@@ -184,7 +189,7 @@ impl Stepper {
         self.pgs.contacts.iter().for_each(|row| row.guard(&mut self.state, task.h));
         report.residual = self.pgs.residual;
         laps.end(Stage::Solve);
-        drift(&mut self.state, remaining, &self.impacts.shift);
+        drift(&mut self.state, remaining);
         self.keep_out_of_walls(world);
         laps.end(Stage::Update);
     }
@@ -201,9 +206,9 @@ impl Stepper {
         self.pgs.solve_grip::<SPIN>(world, &mut self.state, task);
         self.forget_multipliers();
         laps.end(Stage::Assemble);
-        drift(&mut self.state, remaining, &self.impacts.shift);
+        drift(&mut self.state, remaining);
         laps.end(Stage::Update);
-        let (position, angle) = &self.detected_at;
+        let (position, angle) = &self.planes_at;
         let mut planes = Planes { rows: &mut self.pgs.contacts, position, angle };
         let steps = (task.h, task.iterations);
         let (joints, state) = (&self.plan.joints, &mut self.state);
@@ -216,7 +221,7 @@ impl Stepper {
     /// The last resort against tunnelling, along the whole way since detection.
     fn keep_out_of_walls(&mut self, world: &World) {
         if self.plan.contacts && !world.walls.is_empty() {
-            keep_out_of_walls(world, &mut self.state, &self.detected_at.0);
+            keep_out_of_walls(world, &mut self.state, &self.start);
         }
     }
 
@@ -249,9 +254,6 @@ impl Stepper {
         if !self.plan.contacts {
             self.contacts.clear();
             self.pgs.contacts.clear();
-        }
-        if !self.plan.restitution {
-            self.impacts.shift.clear();
         }
     }
 

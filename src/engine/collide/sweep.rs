@@ -1,7 +1,7 @@
 //! Continuous detection: where a moving disc first meets something, and the drift that stops there as the last resort.
 
 use super::may_touch_walls;
-use crate::engine::shape::Shape;
+use crate::engine::shape::{Shape, Wall};
 use crate::engine::state::State;
 use crate::engine::world::World;
 use glam::DVec2;
@@ -48,11 +48,11 @@ pub(super) fn disc_hits_wall(shape: &Shape, position: DVec2, path: DVec2, radius
     (distance - radius <= 1e-3 * radius && path.dot(normal) < 0.0).then_some((normal, t))
 }
 
-/// Moves every body that moves along its velocity for `h` seconds, and by its entry of `shift` (nothing, if that is empty).
-pub(crate) fn drift(state: &mut State, h: f64, shift: &[DVec2]) {
-    for i in 0..state.len() {
-        if state.moves[i] {
-            state.position[i] += h * state.velocity[i] + shift.get(i).copied().unwrap_or(DVec2::ZERO);
+/// Moves every body that moves along its velocity for `h` seconds.
+pub(crate) fn drift(state: &mut State, h: f64) {
+    for ((position, velocity), moves) in state.position.iter_mut().zip(&state.velocity).zip(&state.moves) {
+        if *moves {
+            *position += h * *velocity;
         }
     }
     for (angle, omega) in state.angle.iter_mut().zip(&state.omega) {
@@ -60,35 +60,36 @@ pub(crate) fn drift(state: &mut State, h: f64, shift: &[DVec2]) {
     }
 }
 
-/// Puts a body back to where its core met a wall on the straight way from `start`; there its velocity into the wall ends.
+/// Puts a body back to where its core met a wall on the straight way from `start`; there its velocity into the wall bounces.
 pub(crate) fn keep_out_of_walls(world: &World, state: &mut State, start: &[DVec2]) {
     for (i, from) in start.iter().enumerate().take(state.len()) {
         let path = state.position[i] - *from;
         let core = CORE * world.bodies.radius[i];
         if path.length_squared() > core * core
             && may_touch_walls(world, i as u32)
-            && let Some((normal, fraction)) = first_wall(world, *from, path, core)
+            && let Some((wall, normal, fraction)) = first_wall(world, *from, path, core)
         {
             state.position[i] = *from + path * fraction;
+            let own = world.bodies.restitution[i].max(wall.restitution);
             let into = state.velocity[i].dot(normal).min(0.0);
-            state.velocity[i] -= into * normal;
+            state.velocity[i] -= (1.0 + world.tuning.restitution.unwrap_or(own)) * into * normal;
         }
     }
 }
 
-/// The first wall that a disc of radius `core` meets on `path` from outside of it: its normal there, the fraction of the path.
-fn first_wall(world: &World, from: DVec2, path: DVec2, core: f64) -> Option<(DVec2, f64)> {
+/// The first wall that a disc of radius `core` meets on `path` from outside of it, its normal there, the fraction of the path.
+fn first_wall(world: &World, from: DVec2, path: DVec2, core: f64) -> Option<(&Wall, DVec2, f64)> {
     let (low, high) = (from.min(from + path), from.max(from + path));
-    let mut first: Option<(DVec2, f64)> = None;
+    let mut first: Option<(&Wall, DVec2, f64)> = None;
     for wall in &world.walls {
         let (min, max) = wall.shape.bounds();
         let near = min.cmple(high + DVec2::splat(core)).all() && max.cmpge(low - DVec2::splat(core)).all();
         if near
             && wall.shape.distance(from).0 > core
-            && let Some(hit) = disc_hits_wall(&wall.shape, from, path, core)
-            && first.is_none_or(|first| hit.1 < first.1)
+            && let Some((normal, fraction)) = disc_hits_wall(&wall.shape, from, path, core)
+            && first.is_none_or(|first| fraction < first.2)
         {
-            first = Some(hit);
+            first = Some((wall, normal, fraction));
         }
     }
     first

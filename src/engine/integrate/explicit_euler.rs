@@ -7,7 +7,7 @@ use super::{Forces, Scene, drift};
 use crate::engine::state::State;
 
 pub(super) fn begin(scene: &Scene, state: &mut State, forces: &Forces) -> f64 {
-    drift(state, scene.h, &[]);
+    drift(state, scene.h);
     scale(state, 1.0 - scene.world.drag * scene.h);
     forces.kick(scene, state, scene.h);
     0.0

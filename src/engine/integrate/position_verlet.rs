@@ -9,7 +9,7 @@ use crate::engine::state::State;
 
 pub(super) fn begin(scene: &Scene, state: &mut State, forces: &mut Forces) -> f64 {
     let half = scene.h / 2.0;
-    drift(state, half, &[]);
+    drift(state, half);
     forces.evaluate(scene, state);
     decay(scene, state, half);
     if scene.plan.dashpots {

@@ -20,6 +20,8 @@ pub(crate) struct ContactRow {
     /// Effective masses along the normal and the tangent [kg].
     pub normal_mass: f64,
     pub tangent_mass: f64,
+    /// Whether the contact carried a force in the last substep.
+    pub held: bool,
     /// Speed along the normal that is asked for [m/s]: at least this.
     pub wanted_speed: f64,
     pub friction: f64,
@@ -62,6 +64,7 @@ impl ContactRow {
             gap: contact.gap,
             normal_mass: 1.0 / k,
             tangent_mass: 1.0 / tangent_k,
+            held: contact.normal_force > 0.0,
             wanted_speed: 0.0,
             friction: world.tuning.friction.unwrap_or_else(|| (bodies.friction[a] * friction).sqrt()),
             restitution: world.tuning.restitution.unwrap_or_else(|| bodies.restitution[a].max(restitution)),

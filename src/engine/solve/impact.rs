@@ -4,8 +4,9 @@
 //! balls as it does through Newton's cradle (for sequential against simultaneous impact see Smith et al., "Reflections on
 //! Simultaneous Impact", ACM Trans. Graph. 31(4), 2012). Each conserves momentum to rounding, and energy too for e = 1.
 //!
-//! The surfaces meet at a fraction of the substep. A body whose velocity changes by Δv at time t of the substep has lost
-//! t·Δv on the way that its new velocity will be taken for; `shift` returns it, so a bounce is not early by up to a substep.
+//! The surfaces meet at a fraction of the substep. A body whose velocity changes by Δv at time t of it is moved by −t·Δv, to
+//! where a straight way with the new velocity ends in the same place: a bounce is not early by up to a substep, and further
+//! impacts in the same substep are found on the way really taken.
 
 use super::contact_rows::ContactRow;
 use crate::engine::collide::sweep::CORE;
@@ -20,8 +21,11 @@ const LARGEST_PASSES: u32 = 64;
 /// Shifts and times of the impacts of a substep.
 #[derive(Debug, Default)]
 pub(crate) struct Impacts {
-    /// [m], by body; to be added to the drift.
-    pub shift: Vec<DVec2>,
+    /// [m], by body
+    shift: Vec<DVec2>,
+    /// Longest shift, as a part of the first body's radius. Bounded for integrators of which a part of the drift comes after
+    /// the next detection, where a long one would put a body behind a wall meanwhile; without it a bounce is early.
+    longest_shift: f64,
     /// Time of the body's last impact in this substep [s].
     at: Vec<f64>,
     /// Contacts with restitution that were approaching at the start.
@@ -29,15 +33,17 @@ pub(crate) struct Impacts {
 }
 
 impl Impacts {
-    /// Resolves the impacts of a substep of `h` seconds. `gravity` [m/s²] sets what counts as resting. Returns their number.
+    /// Resolves the impacts of a substep of `h` seconds; positions and gaps are then those that go with the new velocities.
+    /// `gravity` [m/s²] sets what counts as resting. Returns the number of impacts.
     pub fn resolve<const SPIN: bool>(
         &mut self,
-        rows: &[ContactRow],
+        rows: &mut [ContactRow],
         contacts: &[Contact],
         state: &mut State,
-        h: f64,
-        gravity: f64,
+        (h, gravity): (f64, f64),
+        only_short_shifts: bool,
     ) -> usize {
+        self.longest_shift = if only_short_shifts { 0.5 * CORE } else { f64::INFINITY };
         self.shift.clear();
         self.shift.resize(state.position.len(), DVec2::ZERO);
         self.at.clear();
@@ -55,17 +61,13 @@ impl Impacts {
                 break;
             }
         }
-        impacts
-    }
-
-    /// Drops shifts that reach through the core of a body. For integrators of which a part of the drift comes after the next
-    /// detection: a long shift would put the body behind a wall meanwhile; without it the bounce is early.
-    pub fn drop_long_shifts(&mut self, radius: &[f64]) {
-        for (shift, radius) in self.shift.iter_mut().zip(radius) {
-            if shift.length() > 0.5 * CORE * radius {
-                *shift = DVec2::ZERO;
-            }
+        for row in rows {
+            row.gap += row.normal.dot(self.shift[row.a as usize] - self.shift[row.b as usize]);
         }
+        for (position, shift) in state.position.iter_mut().zip(&self.shift) {
+            *position += *shift;
+        }
+        impacts
     }
 
     /// One impact, if the surfaces meet within the substep at more than the speed of rest.
@@ -80,22 +82,27 @@ impl Impacts {
         h: f64,
         gravity: f64,
     ) -> bool {
+        let (a, b) = (row.a as usize, row.b as usize);
         let speed = row.normal_speed(state);
         let rest = 2.0 * h * (gravity + force / row.normal_mass);
-        if !(speed < -rest) || row.gap + h * speed > 0.0 {
+        // The gap that a straight way with the present velocities would have started from.
+        let gap = row.gap + row.normal.dot(self.shift[a] - self.shift[b]);
+        if !(speed < -rest) || gap + h * speed > 0.0 {
             return false;
         }
-        let (a, b) = (row.a as usize, row.b as usize);
-        let meets = (row.gap.max(0.0) / -speed).min(h);
-        let time = meets.max(self.at[a]).max(self.at[b]);
+        let time = (gap / -speed).min(h).max(self.at[a]).max(self.at[b]);
         let before = (state.velocity[a], state.velocity[b]);
         let impulse = -(1.0 + row.restitution) * speed * row.normal_mass;
         row.push(impulse, state);
         let most = row.friction * impulse;
         let rub = (-row.tangent_speed::<SPIN>(state) * row.tangent_mass).min(most).max(-most);
         row.rub::<SPIN>(rub, state);
-        self.shift[a] -= time * (state.velocity[a] - before.0);
-        self.shift[b] -= time * (state.velocity[b] - before.1);
+        let shift = [time * (state.velocity[a] - before.0), time * (state.velocity[b] - before.1)];
+        let longest = self.longest_shift * row.radius_a;
+        if shift[0].length() <= longest && shift[1].length() <= longest {
+            self.shift[a] -= shift[0];
+            self.shift[b] -= shift[1];
+        }
         self.at[a] = time;
         self.at[b] = time;
         true

@@ -16,7 +16,7 @@ const LARGEST_PUSH: f64 = 1.0;
 /// Contacts as planes: the gap along the normal found at detection, and how far the bodies have moved since.
 pub(crate) struct Planes<'a> {
     pub rows: &'a mut [ContactRow],
-    /// Positions and angles at detection, overlaps parted.
+    /// Positions and angles that the gaps belong to.
     pub position: &'a [DVec2],
     pub angle: &'a [f64],
 }
@@ -48,8 +48,10 @@ impl Planes<'_> {
         let row = self.rows[i];
         let ((move_a, turn_a), (move_b, turn_b)) = (self.moved::<SPIN>(row.a, state), self.moved::<SPIN>(row.b, state));
         let gap = row.gap + row.normal.dot(move_a - move_b);
-        // What an earlier substep left is carried on, as its velocity is needed up a stack; more would launch bodies.
-        let change = row.gap.min(0.0) + (-row.gap).clamp(0.0, LARGEST_PUSH * h) - gap;
+        // What an earlier substep left of a held contact is carried on, as its velocity is needed up a stack; more would
+        // launch bodies, and in a contact that only passes it would be energy from nothing.
+        let push = if row.held { LARGEST_PUSH * h } else { 0.0 };
+        let change = row.gap.min(0.0) + (-row.gap).clamp(0.0, push) - gap;
         if change <= 0.0 {
             return 0.0;
         }
