@@ -159,7 +159,7 @@ fn restart_and_open_can_be_undone() {
 fn a_file_that_cannot_be_opened_keeps_the_running_scene() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("broken.ron");
-    std::fs::write(&path, "(version: 1, bodies: [Particle((mass: -1.0))])").expect("writable");
+    std::fs::write(&path, "(version: 1, bodies: [Particle(mass: -1.0)])").expect("writable");
     let mut world = World::new();
     let ball = add(&mut world, v(0.0, 0.0));
     let session = start(world);
