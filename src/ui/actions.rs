@@ -136,8 +136,8 @@ pub fn fit_all(frame: &Frame, camera: &mut Camera) {
         // A scene asks for a height; the margin that `fit` adds is part of it already. On a narrow canvas the bodies must be
         // seen too, unless they lie far out.
         Some((centre, height)) => {
-            let reach = pick::bounds(&frame.world, &frame.world.bodies().id)
-                .map_or(0.0, |(min, max)| (centre.x - min.x).max(max.x - centre.x).clamp(0.0, height));
+            let far = frame.world.bodies().position.iter().map(|p| (p.x - centre.x).abs()).fold(0.0, f64::max);
+            let reach = far.min(height);
             let half = DVec2::new(reach, height / 2.4);
             camera.fit(centre - half, centre + half);
         }

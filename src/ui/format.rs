@@ -24,6 +24,17 @@ pub fn si(value: f64, unit: &str) -> String {
     format!("{} {prefix}{unit}", digits(scaled))
 }
 
+/// The same without trailing zeros, for round numbers on axes and legends: "1 kN", "0.5 m".
+pub fn round_si(value: f64, unit: &str) -> String {
+    let text = si(value, unit);
+    match text.split_once(' ') {
+        Some((number, unit)) if number.contains('.') && !number.contains('e') => {
+            format!("{} {unit}", number.trim_end_matches('0').trim_end_matches('.'))
+        }
+        _ => text,
+    }
+}
+
 /// `value` with three significant digits; very large and small ones in powers of ten.
 pub fn digits(value: f64) -> String {
     let size = value.abs();
@@ -68,6 +79,13 @@ mod tests {
         assert_eq!(si(0.25, "kg"), "0.250 kg");
         assert_eq!(si(1e-30, "m"), "1.00e−18 pm");
         assert_eq!(si(f64::NAN, "J"), "NaN J");
+    }
+
+    #[test]
+    fn round_numbers_have_no_trailing_zeros() {
+        assert_eq!(round_si(1000.0, "N"), "1 kN");
+        assert_eq!(round_si(-0.25, "J"), "−250 mJ");
+        assert_eq!(round_si(1.5, "m"), "1.5 m");
     }
 
     #[test]

@@ -96,8 +96,8 @@ fn spin(ui: &mut Ui, body: &mut Body) -> bool {
 fn material(ui: &mut Ui, restitution: &mut f64, friction: &mut f64) -> bool {
     let bounce = "Coefficient of restitution; a contact takes the larger of the two.";
     let slide = "Coefficient of friction; a contact takes the geometric mean of the two.";
-    settled(ui, field("Bounciness", "", 0.0..=1.0, bounce), restitution)
-        | settled(ui, field("Roughness", "", 0.0..=10.0, slide), friction)
+    settled(ui, field("Own restitution", "", 0.0..=1.0, bounce), restitution)
+        | settled(ui, field("Own friction", "", 0.0..=10.0, slide), friction)
 }
 
 fn constraint(ui: &mut Ui, id: Id, constraint: &mut Constraint, distance: f64, tension: f64) -> bool {

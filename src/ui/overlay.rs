@@ -1,6 +1,6 @@
 //! What is written over the scene: grid labels, scale bar, legends, the read-out of what lies under the pointer.
 
-use super::format::{digits, si};
+use super::format::{digits, round_si, si};
 use super::state::View;
 use super::theme::{self, Colours, Theme};
 use super::{inspector, state};
@@ -101,7 +101,7 @@ impl Overlay<'_> {
         painter.add(mesh);
         painter.rect_stroke(bar, 0.0, Stroke::new(1.0, colours.line), StrokeKind::Outside);
         let above = vec2(0.0, -3.0);
-        let end = si(self.ranges.tension, "N");
+        let end = round_si(self.ranges.tension, "N");
         let (push, pull) = (format!("{end} push"), format!("{end} pull"));
         small(painter, bar.left_top() + above, Align2::LEFT_BOTTOM, &push, colours.text);
         small(painter, bar.center_top() + above, Align2::CENTER_BOTTOM, "0", colours.text);
@@ -114,7 +114,7 @@ impl Overlay<'_> {
         let start = start - vec2(0.0, 4.0);
         let colour = shown(self.theme.scene().palette().velocity);
         painter.arrow(start, vec2(length, 0.0), Stroke::new(1.75, colour));
-        let label = si(self.ranges.speed, "m/s");
+        let label = round_si(self.ranges.speed, "m/s");
         text(painter, start + vec2(length + 8.0, 0.0), Align2::LEFT_CENTER, &label, colours.text);
     }
 

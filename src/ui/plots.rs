@@ -1,6 +1,6 @@
 //! The plots at the bottom: energy by kind, violation and penetration, step time by stage.
 
-use super::format::si;
+use super::format::{round_si, si};
 use super::state::{PlotTab, State};
 use super::{theme, widgets};
 use crate::app::Frame;
@@ -134,7 +134,7 @@ impl Plots {
         self.energy[1].update(largest(-1.0), now);
         let colours = theme::colours(ui).series;
         let range = [-self.energy[1].top(), self.energy[0].top().max(LEAST_TOP)];
-        let label = |mark: GridMark| si(mark.value, "J");
+        let label = |mark: GridMark| round_si(mark.value, "J");
         plot(ui, "Energy plot", frame, range, label, |plot| {
             for (index, (name, _)) in ENERGIES.iter().enumerate() {
                 plot.line(Line::new(*name, curves.line(index, |v| v)).color(colours[index]).width(1.5));
@@ -150,8 +150,9 @@ impl Plots {
         let top = self.violation.top().max(LEAST_TOP);
         let high = top.log10().ceil();
         let range = if logarithmic { [high - DECADES, high] } else { [0.0, top] };
-        let label =
-            move |mark: GridMark| if logarithmic { si(10f64.powf(mark.value), "m") } else { si(mark.value, "m") };
+        let label = move |mark: GridMark| {
+            if logarithmic { round_si(10f64.powf(mark.value), "m") } else { round_si(mark.value, "m") }
+        };
         let map = |value: f64| if logarithmic { value.max(1e-300).log10().max(high - DECADES) } else { value };
         plot(ui, "Error plot", frame, range, label, |plot| {
             for (index, (name, _)) in VIOLATIONS.iter().enumerate() {
@@ -165,7 +166,7 @@ impl Plots {
         self.step.update(curves.largest(|values| values.iter().sum()), Instant::now());
         let (colours, weak) = (theme::colours(ui).series, theme::colours(ui).weak);
         let budget = 1e6 / (frame.method.hz * frame.speed.wanted.max(1e-6));
-        let label = |mark: GridMark| si(mark.value * 1e-6, "s");
+        let label = |mark: GridMark| round_si(mark.value * 1e-6, "s");
         plot(ui, "Step time plot", frame, [0.0, self.step.top().max(1.0)], label, |plot| {
             let mut below = vec![0.0; curves.times.len()];
             for (index, stage) in Stage::ALL.iter().enumerate() {
@@ -274,7 +275,7 @@ fn plot<'a>(
         .allow_double_click_reset(false)
         .set_margin_fraction(egui::Vec2::ZERO)
         .show_background(false)
-        .grid_color(colours.weak)
+        .grid_color(colours.weak.gamma_multiply(0.5))
         .y_axis_min_width(56.0)
         .x_grid_spacer(|input| seconds(input.bounds))
         .x_axis_formatter(|mark, _| format!("{} s", mark.value))
