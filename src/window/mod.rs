@@ -16,16 +16,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use timing::Timing;
 use winit::event_loop::EventLoop;
 
-/// What is opened if nothing is named.
-const FIRST_SCENE: &str = "bridge";
-
-/// Opens the sandbox on a shipped scene or a scene file, and returns when the window is closed.
+/// Opens the sandbox on a shipped scene (the first one if none is named) or a scene file, and returns when the window is closed.
 ///
 /// # Errors
 /// One line each: no display, a missing system library, no graphics adapter, a scene that cannot be opened.
 pub fn run(scene: Option<&str>) -> anyhow::Result<()> {
     let timing = Timing::start();
-    let name = scene.unwrap_or(FIRST_SCENE).to_owned();
+    let name = scene.unwrap_or(scene::shipped()[0].name).to_owned();
     // Read while the window and the graphics device are being set up.
     let setup = std::thread::spawn(move || scene::open(&name));
     let event_loop = match event_loop() {
