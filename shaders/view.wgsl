@@ -9,7 +9,7 @@ struct View {
     // Half the size of the canvas [px].
     half_size: vec2<f32>,
     pixels_per_point: f32,
-    unused: f32,
+    padding: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;

@@ -3,21 +3,32 @@
 use super::command::{Edit, Spawn};
 use super::pick::{Item, item};
 use crate::engine::{Anchor, Body, Constraint, DVec2, EngineError, Id, Kind, Motion, Shape, Spin, Wall, World};
+use crate::scene::SceneError;
+use crate::scene::generator::{Cloth, Generator, Pile, Rope};
+
+/// Why an edit was refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EditError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
 
 /// Carries out `edit` and tells which things it made or changed; empty if there was nothing to do. On an error the world may be
 /// half changed: the caller keeps a copy.
-pub fn apply(world: &mut World, edit: &Edit) -> Result<Vec<Id>, EngineError> {
+pub fn apply(world: &mut World, edit: &Edit) -> Result<Vec<Id>, EditError> {
     match edit {
         Edit::Spawn { kind, at, size } => spawn(world, *kind, *at, *size),
         Edit::Duplicate(ids, offset) => duplicate(world, ids, *offset),
         Edit::Delete(ids) => Ok(delete(world, ids)),
         Edit::Cut(from, to) => Ok(cut(world, *from, *to)),
         Edit::Pin(ids, fixed) => pin(world, ids, *fixed),
-        Edit::SetBody(id, body) => world.set_body(*id, body).map(|()| vec![*id]),
-        Edit::SetKind(id, kind) => world.set_kind(*id, *kind).map(|()| vec![*id]),
-        Edit::SetWall(id, wall) => world.set_wall(*id, wall).map(|()| vec![*id]),
-        Edit::Join(constraint) => world.add_constraint(constraint).map(|id| vec![id]),
-        Edit::AddWall(wall) => world.add_wall(wall).map(|id| vec![id]),
+        Edit::SetBody(id, body) => Ok(world.set_body(*id, body).map(|()| vec![*id])?),
+        Edit::SetKind(id, kind) => Ok(world.set_kind(*id, *kind).map(|()| vec![*id])?),
+        Edit::SetWall(id, wall) => Ok(world.set_wall(*id, wall).map(|()| vec![*id])?),
+        Edit::Join(constraint) => Ok(world.add_constraint(constraint).map(|id| vec![id])?),
+        Edit::AddWall(wall) => Ok(world.add_wall(wall).map(|id| vec![id])?),
     }
 }
 
@@ -30,6 +41,8 @@ const SPRING_DAMPING_RATIO: f64 = 0.03;
 /// Natural frequency of a particle on one spring of a spawned cloth [Hz]: stiff enough to hang like cloth, and with four
 /// neighbours still 15 substeps of 1/240 s a period.
 const CLOTH_HZ: f64 = 8.0;
+/// Distance of neighbours in what is spawned, in radii.
+const GAP: f64 = 2.5;
 /// Links of a spawned rope.
 const ROPE_LINKS: u32 = 20;
 /// Particles along a side of a spawned cloth.
@@ -39,19 +52,15 @@ const PILE_SIDE: u32 = 8;
 
 /// A spring of rest length `rest` [m] that suits a `mass` [kg].
 pub(crate) fn spring(rest: f64, mass: f64) -> Kind {
-    spring_at(rest, mass, SPRING_HZ, SPRING_DAMPING_RATIO)
-}
-
-fn spring_at(rest: f64, mass: f64, frequency: f64, damping_ratio: f64) -> Kind {
-    let omega = std::f64::consts::TAU * frequency;
-    Kind::Spring { rest, stiffness: mass * omega * omega, damping: 2.0 * damping_ratio * mass * omega }
+    let omega = std::f64::consts::TAU * SPRING_HZ;
+    Kind::Spring { rest, stiffness: mass * omega * omega, damping: 2.0 * SPRING_DAMPING_RATIO * mass * omega }
 }
 
 fn particle(position: DVec2, radius: f64) -> Body {
     Body { position, radius, mass: DENSITY * std::f64::consts::PI * radius * radius, ..Body::default() }
 }
 
-fn spawn(world: &mut World, kind: Spawn, at: DVec2, size: f64) -> Result<Vec<Id>, EngineError> {
+fn spawn(world: &mut World, kind: Spawn, at: DVec2, size: f64) -> Result<Vec<Id>, EditError> {
     let pair = DVec2::new(4.0 * size, 0.0);
     match kind {
         Spawn::Particle => Ok(vec![world.add_body(&particle(at, size))?]),
@@ -64,83 +73,58 @@ fn spawn(world: &mut World, kind: Spawn, at: DVec2, size: f64) -> Result<Vec<Id>
             let kind = spring(8.0 * size, particle(at, size).mass);
             spawn_pair(world, at - pair, at + pair, size, kind)
         }
-        Spawn::Rope => spawn_rope(world, at, size),
-        Spawn::Cloth => spawn_cloth(world, at, size),
-        Spawn::Pile => spawn_pile(world, at, size),
+        Spawn::Rope => Ok(rope(at, size).add_to(world)?),
+        Spawn::Cloth => Ok(cloth(at, size).add_to(world)?),
+        Spawn::Pile => Ok(pile(at, size).add_to(world)?),
     }
 }
 
-fn spawn_pair(world: &mut World, a: DVec2, b: DVec2, radius: f64, kind: Kind) -> Result<Vec<Id>, EngineError> {
+fn spawn_pair(world: &mut World, a: DVec2, b: DVec2, radius: f64, kind: Kind) -> Result<Vec<Id>, EditError> {
     let (a, b) = (world.add_body(&particle(a, radius))?, world.add_body(&particle(b, radius))?);
     let constraint = world.add_constraint(&Constraint::between(kind, a, b))?;
     Ok(vec![a, b, constraint])
 }
 
 /// Hangs from a pinned particle at `at`, to the right.
-fn spawn_rope(world: &mut World, at: DVec2, size: f64) -> Result<Vec<Id>, EngineError> {
-    let (link, group) = (2.5 * size, own_group(world));
-    let mut ids = Vec::new();
-    for i in 0..=ROPE_LINKS {
-        let motion = if i == 0 { Motion::Static } else { Motion::Dynamic };
-        let position = at + DVec2::new(link * f64::from(i), 0.0);
-        ids.push(world.add_body(&Body { motion, group, ..particle(position, size) })?);
-    }
-    for i in 0..ROPE_LINKS as usize {
-        ids.push(world.add_constraint(&Constraint::between(Kind::Rod { length: link }, ids[i], ids[i + 1]))?);
-    }
-    Ok(ids)
+fn rope(at: DVec2, size: f64) -> Generator {
+    let to = at + DVec2::new(GAP * size * f64::from(ROPE_LINKS), 0.0);
+    let mass = particle(at, size).mass;
+    Generator::Rope(Rope { from: at, to, links: ROPE_LINKS, mass, radius: size, ..Rope::default() })
 }
 
 /// Hangs from two pinned corners, its top edge's middle at `at`.
-fn spawn_cloth(world: &mut World, at: DVec2, size: f64) -> Result<Vec<Id>, EngineError> {
-    let (n, gap, group) = (CLOTH_SIDE, 2.5 * size, own_group(world));
-    let corner = at - DVec2::new(gap * f64::from(n - 1) / 2.0, 0.0);
-    let mut ids = Vec::new();
-    for i in 0..n * n {
-        let (row, column) = (i / n, i % n);
-        let motion = if row == 0 && (column == 0 || column == n - 1) { Motion::Static } else { Motion::Dynamic };
-        let position = corner + gap * DVec2::new(f64::from(column), -f64::from(row));
-        ids.push(world.add_body(&Body { motion, group, ..particle(position, size) })?);
-    }
+fn cloth(at: DVec2, size: f64) -> Generator {
+    let spacing = GAP * size;
     let mass = particle(at, size).mass;
-    for i in 0..n * n {
-        let (row, column) = (i / n, i % n);
-        let neighbours = [
-            (column + 1 < n, i + 1, 1.0),
-            (row + 1 < n, i + n, 1.0),
-            (column + 1 < n && row + 1 < n, i + n + 1, 0.5),
-            (column > 0 && row + 1 < n, (i + n).wrapping_sub(1), 0.5),
-        ];
-        for (_, j, share) in neighbours.into_iter().filter(|(exists, ..)| *exists) {
-            let (a, b) = (ids[i as usize], ids[j as usize]);
-            let rest = world.body(a)?.position.distance(world.body(b)?.position);
-            let kind = spring_at(rest, mass * share, CLOTH_HZ, SPRING_DAMPING_RATIO);
-            ids.push(world.add_constraint(&Constraint::between(kind, a, b))?);
-        }
-    }
-    Ok(ids)
+    let omega = std::f64::consts::TAU * CLOTH_HZ;
+    Generator::Cloth(Cloth {
+        corner: at - DVec2::new(spacing * f64::from(CLOTH_SIDE - 1) / 2.0, 0.0),
+        columns: CLOTH_SIDE,
+        rows: CLOTH_SIDE,
+        spacing,
+        stiffness: mass * omega * omega,
+        damping: 2.0 * SPRING_DAMPING_RATIO * mass * omega,
+        mass,
+        radius: size,
+        ..Cloth::default()
+    })
 }
 
-/// A block of discs around `at`, every second row shifted by half a gap so that it falls apart.
-fn spawn_pile(world: &mut World, at: DVec2, size: f64) -> Result<Vec<Id>, EngineError> {
-    let (n, gap) = (PILE_SIDE, 2.1 * size);
-    let mut ids = Vec::new();
-    for i in 0..n * n {
-        let (row, column) = (f64::from(i / n), f64::from(i % n));
-        let shift = if (i / n) % 2 == 1 { 0.5 } else { 0.0 };
-        let middle = f64::from(n - 1) / 2.0;
-        let disc = particle(at + gap * DVec2::new(column + shift - middle, row - middle), size);
-        ids.push(world.add_body(&Body { spin: Some(Spin::default()), ..disc })?);
-    }
-    Ok(ids)
+/// A block of discs around `at`.
+fn pile(at: DVec2, size: f64) -> Generator {
+    let half = DVec2::splat(GAP * size * f64::from(PILE_SIDE) / 2.0);
+    Generator::Pile(Pile {
+        count: PILE_SIDE * PILE_SIDE,
+        min: at - half,
+        max: at + half,
+        radius: (0.8 * size, 1.2 * size),
+        density: DENSITY,
+        spin: true,
+        ..Pile::default()
+    })
 }
 
-/// A collision group that nothing in the world uses yet.
-fn own_group(world: &World) -> u32 {
-    world.bodies().group.iter().copied().max().unwrap_or(0).saturating_add(1)
-}
-
-fn duplicate(world: &mut World, ids: &[Id], offset: DVec2) -> Result<Vec<Id>, EngineError> {
+fn duplicate(world: &mut World, ids: &[Id], offset: DVec2) -> Result<Vec<Id>, EditError> {
     let mut copies = Vec::new();
     for &id in ids {
         let Ok(body) = world.body(id) else { continue };
@@ -222,7 +206,7 @@ fn segments_cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     (c_side != 0.0 || d_side != 0.0) && c_side * d_side <= 0.0 && a_side * b_side <= 0.0
 }
 
-fn pin(world: &mut World, ids: &[Id], fixed: bool) -> Result<Vec<Id>, EngineError> {
+fn pin(world: &mut World, ids: &[Id], fixed: bool) -> Result<Vec<Id>, EditError> {
     let motion = if fixed { Motion::Static } else { Motion::Dynamic };
     let mut changed = Vec::new();
     for &id in ids {

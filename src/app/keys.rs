@@ -31,6 +31,7 @@ pub enum Action {
     Palette,
     Help,
     FullScreen,
+    Quit,
     Escape,
 }
 
@@ -165,6 +166,7 @@ pub const ENTRIES: &[Entry] = &[
     entry(Action::Palette, &[ctrl("K")], "Find an action", "Lists every action with its shortcut; type to find one."),
     entry(Action::Help, &[key("F1")], "Help", "Lists every action with its shortcut."),
     entry(Action::FullScreen, &[key("F11")], "Full screen", "Fills the screen with the window, or gives it back."),
+    entry(Action::Quit, &[ctrl("Q")], "Quit", "Closes the window."),
     entry(
         Action::Escape,
         &[key("Escape")],

@@ -87,7 +87,7 @@ impl Simulation {
         frame
     }
 
-    fn frame(&self, sequence: u64, achieved: f64) -> Frame {
+    fn frame(&mut self, sequence: u64, achieved: f64) -> Frame {
         Frame {
             sequence,
             published: Instant::now(),
@@ -99,7 +99,7 @@ impl Simulation {
             report: self.report.clone(),
             measures: self.measures,
             plots: self.plots.clone(),
-            plan: self.stepper.plan_sentence(),
+            plan: self.stepper.plan(&self.world).sentence().to_string(),
             running: self.running,
             speed: Speed { wanted: self.speed, achieved },
             fault: self.fault.clone(),

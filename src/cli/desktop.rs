@@ -2,9 +2,12 @@
 
 use super::ShotArguments;
 
-/// Opens the sandbox.
+/// Opens the sandbox. A scene that is wrong is refused before any window is asked for.
 #[cfg(feature = "desktop")]
 pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
+    if let Some(scene) = scene {
+        crate::scene::open(scene)?;
+    }
     crate::window::run(scene)
 }
 

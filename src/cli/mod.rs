@@ -38,6 +38,7 @@ pub enum Command {
 
 /// Draws a scene into a PNG file, without a window.
 #[derive(Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
 pub struct ShotArguments {
     /// Name of a shipped scene, or path of a scene file
     pub scene: String,

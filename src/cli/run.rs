@@ -17,14 +17,15 @@ use std::time::Instant;
 /// Rows are written at time 0 and then every `--every` seconds, each at the step nearest to that time (never twice at the
 /// same step). All units are SI; numbers are written so that they are read back with the same bits.
 #[derive(Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
 pub struct RunArguments {
     /// Name of a shipped scene, or path of a scene file
     scene: String,
     /// Simulated time [s]
-    #[arg(long, default_value = "10", value_parser = numbers::seconds, allow_hyphen_values = true)]
+    #[arg(long, default_value = "10", value_parser = numbers::seconds)]
     seconds: f64,
     /// Time between rows [s], such as 0.1 or 1/60; every step if not given
-    #[arg(long, value_parser = numbers::interval, allow_hyphen_values = true)]
+    #[arg(long, value_parser = numbers::interval)]
     every: Option<f64>,
     /// Write time,id,x,y,angle,vx,vy,omega of every body to a file, or to standard output with `-`
     #[arg(long, value_name = "FILE")]
@@ -33,7 +34,7 @@ pub struct RunArguments {
     #[arg(long, value_name = "FILE")]
     measures: Option<String>,
     /// Steps a second, in place of the scene's
-    #[arg(long, value_parser = numbers::hz, allow_hyphen_values = true)]
+    #[arg(long, value_parser = numbers::hz)]
     hz: Option<f64>,
     /// Substeps a step, in place of the scene's
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -51,7 +52,7 @@ pub struct RunArguments {
     #[arg(long)]
     no_warm_start: bool,
     /// Part of the position error that PGS feeds back in a substep, 0 to 1
-    #[arg(long, value_parser = numbers::baumgarte, allow_hyphen_values = true)]
+    #[arg(long, value_parser = numbers::baumgarte)]
     baumgarte: Option<f64>,
     /// Print a hash over the bits of the last state: equal runs, equal hashes
     #[arg(long)]

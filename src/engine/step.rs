@@ -73,11 +73,6 @@ impl Stepper {
         &self.plan
     }
 
-    /// What the plan at hand decided and why, in one sentence for the user; empty before the first step.
-    pub fn plan_sentence(&self) -> String {
-        self.plan.sentence().to_string()
-    }
-
     /// Steps the world once (1/hz seconds). If the run diverges the world is left as it was and the report says so.
     pub fn step(&mut self, world: &mut World) -> StepReport {
         let mut laps = Laps::start(self.clock);

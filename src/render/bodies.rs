@@ -27,11 +27,19 @@ pub(super) fn speed_extreme(world: &World) -> f64 {
     world.bodies().velocity.iter().fold(0.0, |largest, velocity| velocity.length().max(largest))
 }
 
-/// Draws every body, and the outlines of those selected or under the cursor.
-pub(super) fn draw_bodies(picture: &mut Picture, scene: &Scene<'_>) {
+/// Which bodies are drawn: links may lie between the two.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mobility {
+    Moving,
+    Fixed,
+}
+
+/// Draws bodies, and the outlines of those selected or under the cursor.
+pub(super) fn draw_bodies(picture: &mut Picture, scene: &Scene<'_>, mobility: Mobility) {
     let world = &scene.frame.world;
     let bodies = world.bodies();
-    for index in 0..bodies.len() {
+    let wanted = |index: &usize| (bodies.motion[*index] == Motion::Static) == (mobility == Mobility::Fixed);
+    for index in (0..bodies.len()).filter(wanted) {
         let at = scene.view.place(scene.pose.position(index));
         let radius = drawn_radius(world, index, scene.view.scale);
         if bodies.motion[index] == Motion::Static {
@@ -73,11 +81,11 @@ fn body_colour(scene: &Scene<'_>, index: usize) -> Colour {
     own_colour(scene, index)
 }
 
-/// The colour that a body keeps: for those that move by themselves given out in turn, by id; a particle that is part of
+/// The colour that a body keeps: for those that move by themselves given out in turn, by id; a particle within
 /// something (a rope, a cloth) is grey, so that the colours of the tension beside it can be read.
 pub(super) fn own_colour(scene: &Scene<'_>, index: usize) -> Colour {
     let bodies = scene.frame.world.bodies();
-    if scene.linked[index] && bodies.spin(index).is_none() {
+    if scene.links[index] > 1 && bodies.spin(index).is_none() {
         return scene.palette.node;
     }
     let colours = &scene.palette.bodies;

@@ -56,7 +56,7 @@ pub struct Palette {
     pub wall_edge: Colour,
     /// Fills of dynamic bodies, given out in turn so that neighbours differ.
     pub bodies: [Colour; 6],
-    /// Particles that are part of something.
+    /// Particles within a rope, a bridge, a cloth.
     pub node: Colour,
     pub body_stroke: Colour,
     /// Static bodies and anchors in the world.
@@ -92,7 +92,7 @@ const DARK: Palette = Palette {
         Colour::hex(0xBD9A8C),
         Colour::hex(0xA3AEB9),
     ],
-    node: Colour::hex(0x8B95A2),
+    node: Colour::hex(0x66707D),
     body_stroke: Colour::hex(0x2B3138),
     fixed: Colour::hex(0x5B6470),
     fixed_stroke: Colour::hex(0xC3CAD3),
@@ -128,7 +128,7 @@ const LIGHT: Palette = Palette {
         Colour::hex(0xA6766A),
         Colour::hex(0x7E8C9A),
     ],
-    node: Colour::hex(0x6D7682),
+    node: Colour::hex(0xA7AFBA),
     body_stroke: Colour::hex(0x39414B),
     fixed: Colour::hex(0x8A929D),
     fixed_stroke: Colour::hex(0x2F363F),

@@ -74,9 +74,10 @@ impl Gpu {
 /// half the time of starting both. `WGPU_BACKEND` narrows the choice. `None` from `start` means: nothing here, try the next.
 fn first_that_works<T>(start: impl Fn(Backends) -> Option<Result<T, GpuError>>) -> Result<T, GpuError> {
     let available = wgpu::Instance::enabled_backend_features();
-    let allowed = Backends::from_env().unwrap_or(Backends::all()) & available;
+    let wanted = std::env::var("WGPU_BACKEND").unwrap_or_default();
+    let allowed = if wanted.is_empty() { available } else { Backends::from_comma_list(&wanted) & available };
     if allowed.is_empty() {
-        return Err(GpuError::UnknownBackend(std::env::var("WGPU_BACKEND").unwrap_or_default()));
+        return Err(GpuError::UnknownBackend(wanted));
     }
     let choices = [allowed - Backends::GL, allowed & Backends::GL].into_iter().filter(|choice| !choice.is_empty());
     let mut last = Err(GpuError::NoAdapter { tried: tried(allowed) });

@@ -1,14 +1,14 @@
 //! What ties bodies together: rods, ropes, springs and pins, coloured by the force they carry.
 
-use super::bodies::draw_bolt;
+use super::bodies::{draw_bolt, drawn_radius};
 use super::colour::Colour;
 use super::marks::{Ends, SpringMark};
 use super::picture::{DiscStyle, Picture, Scene};
 use super::view::single;
 use crate::engine::constraint::WORLD;
-use crate::engine::{DVec2, Kind, World};
+use crate::engine::{DVec2, Kind, Motion, World};
 
-/// Width of a rod at most and at least [points]; in between a seventh of its length.
+/// Width of a rod at most and at least [points]; in between a fifth of its length.
 const ROD_WIDTH: [f64; 2] = [1.5, 4.0];
 /// The same for a rope under tension.
 const ROPE_WIDTH: [f64; 2] = [1.5, 3.0];
@@ -26,10 +26,19 @@ pub(super) fn tension_extreme(world: &World) -> f64 {
     carrying.map(|i| links.tension(i).abs()).filter(|tension| tension.is_finite()).fold(0.0, f64::max)
 }
 
-/// Draws what lies below the bodies: outlines, springs, then rods and ropes.
-pub(super) fn draw_links(picture: &mut Picture, scene: &Scene<'_>) {
+/// Where a link lies.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Layer {
+    /// Below the bodies that move: what ends at a body seems to be fixed to its edge.
+    Below,
+    /// Above them: a piece of a chain whose beads hide more than half of it.
+    Above,
+}
+
+/// Draws the links of a layer: outlines, springs, then rods and ropes.
+pub(super) fn draw_links(picture: &mut Picture, scene: &Scene<'_>, layer: Layer) {
     let links = scene.frame.world.constraints();
-    let indices = || 0..links.len();
+    let indices = || (0..links.len()).filter(|&index| layer_of(scene, index) == layer);
     for index in indices() {
         draw_outline(picture, scene, index);
     }
@@ -45,6 +54,18 @@ pub(super) fn draw_links(picture: &mut Picture, scene: &Scene<'_>) {
             Kind::Spring { .. } | Kind::Pin => {}
         }
     }
+}
+
+fn layer_of(scene: &Scene<'_>, index: usize) -> Layer {
+    let world = &scene.frame.world;
+    let links = world.constraints();
+    let (Kind::Rod { length } | Kind::Rope { length } | Kind::Spring { rest: length, .. }) = links.kind[index] else {
+        return Layer::Below;
+    };
+    let is_bead = |body: usize| scene.links[body] > 1 && world.bodies().motion[body] != Motion::Static;
+    let ends = [links.a[index], links.b[index]].into_iter().filter(|body| *body != WORLD).map(|body| body as usize);
+    let hidden: f64 = ends.filter(|body| is_bead(*body)).map(|body| drawn_radius(world, body, scene.view.scale)).sum();
+    if hidden > 0.5 * length * scene.view.scale { Layer::Above } else { Layer::Below }
 }
 
 /// Draws what lies over the bodies: pins, and the bolts of ends fixed to the world.
@@ -70,7 +91,7 @@ fn colour(scene: &Scene<'_>, index: usize) -> Colour {
 
 /// Width of a link of `length` [m] on the canvas [points].
 fn width(scene: &Scene<'_>, length: f64, [least, most]: [f64; 2]) -> f32 {
-    (length / 7.0 * scene.view.scale).clamp(least, most) as f32
+    (length / 5.0 * scene.view.scale).clamp(least, most) as f32
 }
 
 fn draw_outline(picture: &mut Picture, scene: &Scene<'_>, index: usize) {
@@ -121,34 +142,36 @@ fn sag(across: DVec2, length: f64, down: DVec2) -> f64 {
     if spare > 0.0 { (0.375 * span * spare + 0.25 * spare * spare).sqrt() } else { 0.0 }
 }
 
-/// The proportions of a spring's coil, which belong to the spring and not to its present length.
+/// A spring's coil [points], which belongs to the spring and not to its present length.
 struct Coil {
+    /// Length at rest.
+    rest: f64,
     /// Grows with the root of the rest length, so that short and long springs both look like springs.
     windings: f64,
-    /// Half its width [m].
     half_width: f64,
 }
 
-fn coil(rest: f64, distance: f64) -> Coil {
+/// The coil of a spring of `rest` [m] that is `length` [points] long now.
+fn coil(rest: f64, length: f64, scale: f64) -> Coil {
     // A spring that rests at length 0 has no size of its own; it is given that of a spring a third as long as it is now.
-    let rest = if rest > 0.0 { rest } else { distance / 3.0 };
+    let rest = if rest > 0.0 { rest } else { length / scale / 3.0 };
     let windings = (9.0 * rest.sqrt()).round().clamp(4.0, 40.0);
-    Coil { windings, half_width: 0.75 * rest / windings }
+    Coil { rest: rest * scale, windings, half_width: 0.75 * rest * scale / windings }
 }
 
 fn draw_spring(picture: &mut Picture, scene: &Scene<'_>, index: usize, rest: f64) {
+    /// Room that a winding needs at rest to be told from its neighbours [points].
+    const WINDING: f64 = 6.0;
     let [from, to] = ends(scene, index);
     let length = (to - from).length();
-    let Coil { windings, half_width } = coil(rest, length / scene.view.scale);
-    let half_width = half_width * scene.view.scale;
+    let Coil { rest, windings, half_width } = coil(rest, length, scene.view.scale);
     let wire = (0.2 * half_width).clamp(1.5, 3.0);
     let colour = colour(scene, index);
-    // Too small for its windings to be told apart.
-    if half_width < wire || length < 4.0 * wire {
-        picture.line(&scene.view, [from, to], wire as f32, Ends::Round, colour);
+    if rest < WINDING * windings || length < 4.0 * wire || is_meshed(scene, index) {
+        picture.line(&scene.view, [from, to], ROD_WIDTH[0] as f32, Ends::Round, colour);
         return;
     }
-    let stub = (0.08 * rest * scene.view.scale).max(2.0 * wire).min(0.2 * length);
+    let stub = (0.08 * rest).max(2.0 * wire).min(0.2 * length);
     if length > LONGEST_SPRING {
         draw_long_spring(picture, scene, [from, to], Wire { stub, half_width, windings, width: wire as f32, colour });
         return;
@@ -165,6 +188,14 @@ fn draw_spring(picture: &mut Picture, scene: &Scene<'_>, index: usize, rest: f64
             colour,
         });
     }
+}
+
+/// Whether a spring is one of many in a cloth or a soft body, where coils would hide each other.
+fn is_meshed(scene: &Scene<'_>, index: usize) -> bool {
+    /// Links of a body up to which it is a joint, and beyond which it is a node of a mesh.
+    const JOINT: u32 = 3;
+    let links = scene.frame.world.constraints();
+    [links.a[index], links.b[index]].into_iter().any(|body| body != WORLD && scene.links[body as usize] > JOINT)
 }
 
 /// A spring's wire on the canvas [points].
@@ -269,12 +300,14 @@ mod tests {
             method: Method::default(),
             report: StepReport::default(),
             measures: Measures::default(),
+            plots: crate::app::Plots::default(),
             plan: String::new(),
             running: true,
             speed: Speed { wanted: 1.0, achieved: 1.0 },
             fault: None,
             undo: None,
             redo: None,
+            touched: std::sync::Arc::default(),
         };
         let camera = Camera { centre: DVec2::ZERO, scale: 50.0, size: DVec2::new(400.0, 300.0) };
         let mut picture = Picture::new();

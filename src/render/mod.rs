@@ -72,7 +72,7 @@ struct ViewUniform {
     target_size: [f32; 2],
     half_size: [f32; 2],
     pixels_per_point: f32,
-    unused: f32,
+    padding: f32,
 }
 
 /// The pipelines, their buffers, and what was uploaded last.
@@ -125,7 +125,7 @@ impl Renderer {
             target_size: viewport.target.map(|side| side as f32),
             half_size: viewport.size.map(|side| side / 2.0),
             pixels_per_point: viewport.pixels_per_point,
-            unused: 0.0,
+            padding: 0.0,
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&view));
         for (pipeline, bytes) in self.pipelines.iter_mut().zip(picture.instances()) {

@@ -4,7 +4,7 @@ use super::bodies::{LEAST_DOT, drawn_radius};
 use super::marks::Ends;
 use super::options::Extra;
 use super::picture::{DiscStyle, FORCE_TICK, Picture, Scene, VELOCITY_ARROW};
-use crate::engine::{Motion, World};
+use crate::engine::{Contact, Motion, World};
 
 /// The largest normal force of a contact [N].
 pub(super) fn force_extreme(world: &World) -> f64 {
@@ -16,15 +16,17 @@ pub(super) fn draw_contacts(picture: &mut Picture, scene: &Scene<'_>) {
     let world = &scene.frame.world;
     let touching = |force: f64, gap: f64| scene.options.contacts && (force > 0.0 || gap <= 0.0);
     let contacts = || world.contacts().iter().filter(|contact| touching(contact.normal_force, contact.gap));
-    let place =
-        |contact: &crate::engine::Contact| scene.view.place(contact.point + scene.pose.shift(contact.a as usize));
+    let place = |contact: &Contact| scene.view.place(contact.point + scene.pose.shift(contact.a as usize));
+    // Among small discs the marks are small too, so that a pile shows its chains of force.
+    let size = |contact: &Contact| (0.3 * drawn_radius(world, contact.a as usize, scene.view.scale)).clamp(0.75, 2.5);
     for contact in contacts() {
         let at = place(contact);
-        let length = 5.0 + FORCE_TICK * scene.force.share(contact.normal_force);
-        picture.line(&scene.view, [at, at + contact.normal * length], 1.75, Ends::Round, scene.palette.contact);
+        let length = 2.0 * size(contact) + FORCE_TICK * scene.force.share(contact.normal_force);
+        let width = 0.7 * size(contact) as f32;
+        picture.line(&scene.view, [at, at + contact.normal * length], width, Ends::Round, scene.palette.contact);
     }
     for contact in contacts() {
-        picture.disc(&scene.view, place(contact), 2.5, DiscStyle::plain(scene.palette.contact));
+        picture.disc(&scene.view, place(contact), size(contact), DiscStyle::plain(scene.palette.contact));
     }
 }
 

@@ -1,9 +1,9 @@
 //! A picture: the marks of one view of one frame, in the order in which they are drawn.
 
-use super::bodies::{draw_bodies, speed_extreme};
+use super::bodies::{Mobility, draw_bodies, speed_extreme};
 use super::colour::{Colour, Palette, Theme};
 use super::legend::SteadyRange;
-use super::links::{draw_joints, draw_links, tension_extreme};
+use super::links::{Layer, draw_joints, draw_links, tension_extreme};
 use super::marks::{BoxMark, DiscMark, Ends, LineMark, MarkKind, SpringMark};
 use super::options::ViewOptions;
 use super::overlays::{draw_contacts, draw_extras, draw_fault, draw_grip, draw_velocities, force_extreme};
@@ -43,8 +43,8 @@ pub struct Picture {
 struct Notes {
     /// The selection, ascending.
     selected: Vec<Id>,
-    /// By body: whether a rod, rope, spring or pin holds it.
-    linked: Vec<bool>,
+    /// By body: how many rods, ropes, springs and pins hold it.
+    links: Vec<u32>,
 }
 
 impl Notes {
@@ -52,11 +52,11 @@ impl Notes {
         self.selected.clear();
         self.selected.extend_from_slice(&options.selected);
         self.selected.sort_unstable();
-        self.linked.clear();
-        self.linked.resize(world.bodies().len(), false);
+        self.links.clear();
+        self.links.resize(world.bodies().len(), 0);
         let links = world.constraints();
         for body in links.a.iter().chain(&links.b).filter(|body| **body != WORLD) {
-            self.linked[*body as usize] = true;
+            self.links[*body as usize] += 1;
         }
     }
 }
@@ -68,7 +68,8 @@ pub(super) struct Scene<'a> {
     pub pose: Pose<'a>,
     pub view: View,
     pub options: &'a ViewOptions,
-    pub linked: &'a [bool],
+    /// By body: how many rods, ropes, springs and pins hold it.
+    pub links: &'a [u32],
     selected: &'a [Id],
     pub palette: &'static Palette,
     pub tension: SteadyRange,
@@ -112,7 +113,7 @@ impl Picture {
             pose: Pose::new(frame, alpha),
             view: View::new(camera),
             options,
-            linked: &notes.linked,
+            links: &notes.links,
             selected: &notes.selected,
             palette: options.theme.palette(),
             tension,
@@ -129,8 +130,10 @@ impl Picture {
         draw_grid(self, scene);
         draw_walls(self, scene);
         draw_trails(self, trails, scene);
-        draw_links(self, scene);
-        draw_bodies(self, scene);
+        draw_links(self, scene, Layer::Below);
+        draw_bodies(self, scene, Mobility::Moving);
+        draw_links(self, scene, Layer::Above);
+        draw_bodies(self, scene, Mobility::Fixed);
         draw_joints(self, scene);
         draw_contacts(self, scene);
         draw_velocities(self, scene);

@@ -12,6 +12,8 @@ const ALL_POINTS: usize = 20_000;
 const LONGEST: usize = 240;
 /// Points of one trail in a crowd.
 const SHORTEST: usize = 8;
+/// Shortest piece that is drawn [points].
+const LEAST_PIECE: f64 = 0.5;
 
 /// Past positions of bodies, oldest first.
 #[derive(Clone, Debug, Default)]
@@ -69,6 +71,10 @@ pub(super) fn draw_trails(picture: &mut Picture, trails: &Trails, scene: &Scene<
         };
         for (i, point) in points {
             let point = scene.view.place(point);
+            // A body at rest, or seen from far away, leaves no line worth drawing.
+            if point.distance_squared(last) < LEAST_PIECE * LEAST_PIECE {
+                continue;
+            }
             let age = i as f64 / past as f64;
             picture.line(&scene.view, [last, point], 2.0, Ends::Square, colour.with_opacity(0.7 * age * age));
             last = point;

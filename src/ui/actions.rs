@@ -19,8 +19,9 @@ pub struct Scene<'a> {
     pub frame: &'a Frame,
     pub camera: &'a mut Camera,
     pub commands: &'a mut Vec<Command>,
-    /// Set by the one action that only the window can carry out.
+    /// Set by the two actions that only the window can carry out.
     pub full_screen: &'a mut bool,
+    pub quit: &'a mut bool,
 }
 
 impl Shell {
@@ -47,6 +48,7 @@ impl Shell {
             }
             Action::Tool(tool) => scene.commands.extend(self.tools.set_tool(tool)),
             Action::FullScreen => *scene.full_screen = true,
+            Action::Quit => *scene.quit = true,
             Action::Escape => self.escape(scene.commands),
             Action::OpenByName | Action::Save | Action::TogglePanels | Action::Palette | Action::Help => {
                 self.act_on_window(action);
@@ -189,7 +191,13 @@ fn repeats(key: Key) -> bool {
 fn allowed_while_typing(action: Action) -> bool {
     matches!(
         action,
-        Action::OpenByName | Action::Save | Action::Palette | Action::Help | Action::FullScreen | Action::Escape
+        Action::OpenByName
+            | Action::Save
+            | Action::Palette
+            | Action::Help
+            | Action::FullScreen
+            | Action::Quit
+            | Action::Escape
     )
 }
 

@@ -44,6 +44,8 @@ pub struct ShellOutput {
     pub view: ViewOptions,
     /// The window is to fill the screen, or to give it back.
     pub full_screen: bool,
+    /// The window is to close.
+    pub quit: bool,
 }
 
 impl Shell {
@@ -98,14 +100,15 @@ impl Shell {
         commands.extend(canvas.commands);
         fault::show(ui, frame, canvas.rect, &mut actions, &mut commands);
         self.dialogs(ui, &mut actions, &mut commands);
-        let mut full_screen = false;
+        let (mut full_screen, mut quit) = (false, false);
         for action in actions {
-            let scene = &mut Scene { frame, camera, commands: &mut commands, full_screen: &mut full_screen };
+            let scene =
+                &mut Scene { frame, camera, commands: &mut commands, full_screen: &mut full_screen, quit: &mut quit };
             self.act(action, scene);
         }
         self.note_duplicate(frame, &commands);
         self.prepare(ui.ctx());
-        ShellOutput { commands, canvas: canvas.rect, view: self.view_options(camera), full_screen }
+        ShellOutput { commands, canvas: canvas.rect, view: self.view_options(camera), full_screen, quit }
     }
 
     fn follow(&mut self, frame: &Arc<Frame>) {

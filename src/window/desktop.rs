@@ -74,10 +74,10 @@ impl Desktop {
         let display = event_loop.owned_display_handle();
         let mut input = egui_winit::State::new(egui.clone(), egui::ViewportId::ROOT, &display, None, None, None);
         input.init_accesskit(event_loop, &window, self.proxy.clone());
-        window.set_visible(true);
         let screen = Screen::new(window.clone(), display)?;
         input.set_max_texture_side(screen.max_texture_side());
-        let setup = setup.join().map_err(|_| anyhow::anyhow!("reading the scene failed inside"))??;
+        let setup = join(setup)?;
+        window.set_visible(true);
         let proxy = self.proxy.clone();
         let wake = move || {
             // The loop ends before the session does: then nobody is left to wake.
@@ -205,6 +205,9 @@ impl Sandbox {
         for command in shown.commands {
             self.session.send(command);
         }
+        if shown.quit {
+            event_loop.exit();
+        }
         if shown.full_screen {
             let full = self.window.fullscreen().is_none();
             self.window.set_fullscreen(full.then_some(Fullscreen::Borderless(None)));
@@ -244,6 +247,12 @@ impl Sandbox {
     }
 }
 
+/// The scene that was read meanwhile.
+pub(super) fn join(setup: JoinHandle<Result<Setup, SceneError>>) -> anyhow::Result<Setup> {
+    let read = setup.join().map_err(|_| anyhow::anyhow!("reading the scene failed, which is a defect of Tautline"))?;
+    Ok(read?)
+}
+
 /// One pass of the panels. egui may run it twice; the commands of both count, for the second sees no input.
 pub(super) fn show(
     egui: &egui::Context,
@@ -259,6 +268,7 @@ pub(super) fn show(
         if let Some(earlier) = shown.take() {
             pass.commands.splice(0..0, earlier.commands);
             pass.full_screen |= earlier.full_screen;
+            pass.quit |= earlier.quit;
         }
         shown = Some(pass);
     });

@@ -28,7 +28,14 @@ pub fn run(scene: Option<&str>) -> anyhow::Result<()> {
     let name = scene.unwrap_or(FIRST_SCENE).to_owned();
     // Read while the window and the graphics device are being set up.
     let setup = std::thread::spawn(move || scene::open(&name));
-    let event_loop = event_loop()?;
+    let event_loop = match event_loop() {
+        Ok(event_loop) => event_loop,
+        Err(error) => {
+            // A scene that cannot be opened is the user's own and comes first.
+            desktop::join(setup)?;
+            return Err(error);
+        }
+    };
     let mut desktop = Desktop::new(event_loop.create_proxy(), setup, timing);
     event_loop.run_app(&mut desktop).context("the window system ended the program")?;
     desktop.finish()

@@ -92,7 +92,7 @@ impl Impacts {
         let impulse = -(1.0 + row.restitution) * speed * row.normal_mass;
         row.push(impulse, state);
         let most = row.friction * impulse;
-        let rub = (-row.tangent_speed::<SPIN>(state) * row.tangent_mass).clamp(-most, most);
+        let rub = (-row.tangent_speed::<SPIN>(state) * row.tangent_mass).min(most).max(-most);
         row.rub::<SPIN>(rub, state);
         self.shift[a] -= time * (state.velocity[a] - before.0);
         self.shift[b] -= time * (state.velocity[b] - before.1);

@@ -59,7 +59,7 @@ impl Planes<'_> {
         let normal_impulse = row.normal_impulse + push / h;
         let most = row.friction * normal_impulse;
         let wanted = row.tangent_impulse - slid * row.tangent_mass / h;
-        let tangent_impulse = wanted.clamp(-most, most);
+        let tangent_impulse = wanted.min(most).max(-most);
         let rub = (tangent_impulse - row.tangent_impulse) * h;
         shift::<SPIN>(&row, rub * row.normal.perp(), rub, state);
         self.rows[i].normal_impulse = normal_impulse;

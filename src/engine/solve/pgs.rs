@@ -253,7 +253,8 @@ impl JointRow {
 fn solve_contact<const SPIN: bool>(row: &mut ContactRow, state: &mut State) -> f64 {
     let most = row.friction * row.normal_impulse;
     let wanted = row.tangent_impulse - row.tangent_mass * row.tangent_speed::<SPIN>(state);
-    let tangent = wanted.clamp(-most, most);
+    // Not `clamp`, which panics on a NaN: a diverging run must reach the check at the end of the substep.
+    let tangent = wanted.min(most).max(-most);
     row.rub::<SPIN>(tangent - row.tangent_impulse, state);
     row.tangent_impulse = tangent;
 

@@ -6,7 +6,7 @@ use super::{Generate, Layout, Link, check_range, fresh_group};
 use crate::engine::{Body, DVec2, Motion, World};
 use serde::{Deserialize, Serialize};
 
-/// A deck of `links` links, hence nodes `name.0` … `name.links`, the first and the last fixed. It hangs in a parabola, which
+/// A deck of `links` links, hence nodes `name.0` … `name.links`, the first and the last fixed by default. It hangs in a parabola, which
 /// is its shape at rest: equal weights at equal horizontal distances. Its nodes do not touch each other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -19,6 +19,10 @@ pub struct Bridge {
     pub to: DVec2,
     pub links: u32,
     pub link: Link,
+    /// Whether the first node is fixed.
+    pub pin_start: bool,
+    /// Whether the last node is fixed.
+    pub pin_end: bool,
     /// How far the middle hangs below the straight line [m].
     pub sag: f64,
     /// Mass of a node [kg].
@@ -38,6 +42,8 @@ impl Default for Bridge {
             to: DVec2::new(4.0, 0.0),
             links: 40,
             link: Link::Rod,
+            pin_start: true,
+            pin_end: true,
             sag: 0.5,
             mass: 1.0,
             radius: None,
@@ -67,8 +73,9 @@ impl Generate for Bridge {
         let nodes = (0..=self.links).map(|i| {
             let t = f64::from(i) / f64::from(self.links);
             let drop = DVec2::new(0.0, -4.0 * self.sag * t * (1.0 - t));
+            let pinned = (i == 0 && self.pin_start) || (i == self.links && self.pin_end);
             Body {
-                motion: if i == 0 || i == self.links { Motion::Static } else { Motion::Dynamic },
+                motion: if pinned { Motion::Static } else { Motion::Dynamic },
                 position: self.from + (self.to - self.from) * t + drop,
                 mass: self.mass,
                 radius: self.radius.unwrap_or(0.6 * spacing),

@@ -1,0 +1,250 @@
+//! The program as a user runs it from a shell: what it prints, what it writes, and how it ends.
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+fn tautline(arguments: &[&str]) -> Output {
+    command(arguments).output().expect("the program runs")
+}
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
+    command.args(arguments);
+    command
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+/// Runs a command that must succeed and returns what it printed.
+fn prints(arguments: &[&str]) -> String {
+    let output = tautline(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// Runs a command that must fail with `code`, in one message that contains `phrase`.
+fn fails(arguments: &[&str], code: i32, phrase: &str) {
+    let output = tautline(arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+    assert!(message.contains(phrase), "{arguments:?}: {message:?} does not contain {phrase:?}");
+    assert!(!message.contains("panicked"), "{arguments:?}: {message}");
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn path_in(folder: &TempDir, name: &str) -> String {
+    folder.path().join(name).display().to_string()
+}
+
+/// The rows of a CSV file as numbers, without the header.
+fn rows(csv: &str) -> Vec<Vec<f64>> {
+    let number = |cell: &str| cell.parse().unwrap_or_else(|_| panic!("{cell:?} is a number"));
+    csv.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect()
+}
+
+const TRAJECTORY: &str = "time,id,x,y,angle,vx,vy,omega";
+const MEASURES: &str = "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,violation_max,\
+                        penetration_max,contacts,step_us";
+
+#[test]
+fn every_command_explains_itself() {
+    for arguments in
+        [&["--help"][..], &["run", "--help"], &["check", "--help"], &["shot", "--help"], &["open", "--help"]]
+    {
+        assert!(prints(arguments).contains("Usage: tautline"), "{arguments:?}");
+    }
+    assert!(prints(&["--version"]).starts_with("tautline "));
+    assert!(prints(&["run", "--help"]).contains("nearest"), "sampling between steps is explained");
+}
+
+#[test]
+fn what_is_not_understood_ends_with_two_and_a_hint() {
+    fails(&["rum", "bridge"], 2, "run");
+    fails(&["run"], 2, "<SCENE>");
+    fails(&["check"], 2, "<FILE>");
+    fails(&["run", "rope", "--integrator", "rk4"], 2, "velocity-verlet");
+    fails(&["run", "rope", "--solver", "magic"], 2, "projection");
+    for wrong in ["NaN", "-1", "1e300", "inf", "soon"] {
+        fails(&["run", "rope", "--seconds", wrong], 2, "from 0 to 1000000");
+    }
+    for wrong in ["0", "1/0", "-0.1", "NaN"] {
+        fails(&["run", "rope", "--every", wrong], 2, "1/60");
+    }
+    fails(&["run", "rope", "--hz", "0"], 2, "steps per second");
+    fails(&["run", "rope", "--substeps", "0"], 2, "1..=1000");
+    fails(&["run", "rope", "--iterations", "-4"], 2, "iterations");
+    fails(&["run", "rope", "--baumgarte", "2"], 2, "from 0 to 1");
+    fails(&["shot", "rope", "a.png", "--size", "big"], 2, "1280x800");
+    fails(&["shot", "rope", "a.png", "--theme", "pink"], 2, "dark");
+}
+
+#[test]
+fn scenes_are_listed_by_name_and_title() {
+    let list = prints(&["scenes"]);
+    assert_eq!(list.lines().count(), tautline::scene::shipped().len());
+    assert!(list.lines().next().is_some_and(|line| line.starts_with("bridge ") && line.ends_with("Rope bridge")));
+}
+
+#[test]
+fn check_tells_good_scenes_from_wrong_ones() {
+    assert!(prints(&["check", "pile", "scenes/rope.ron"]).contains("scenes/rope.ron: good"));
+    let wrong = "tests/broken_scenes/negative_mass.ron";
+    fails(&["check", wrong], 1, "tests/broken_scenes/negative_mass.ron:6:31: found mass -2.0");
+    let both = tautline(&["check", wrong, "rope"]);
+    assert!(text(&both.stdout).contains("rope: good"), "the others are checked all the same");
+    assert_eq!(both.status.code(), Some(1));
+}
+
+#[test]
+fn a_scene_that_is_not_there_is_named_and_its_neighbour_suggested() {
+    fails(&["run", "brige"], 1, "Did you mean `bridge`?");
+    fails(&["open", "brige"], 1, "Did you mean `bridge`?");
+    fails(&["shot", "brige", "a.png"], 1, "Did you mean `bridge`?");
+    fails(&["run", "no/such/scene.ron"], 1, "no such file");
+}
+
+#[test]
+fn a_run_writes_every_body_at_the_start_and_at_every_sample() {
+    let folder = folder();
+    let (csv, measures) = (path_in(&folder, "out.csv"), path_in(&folder, "measures.csv"));
+    prints(&["run", "double_pendulum", "--seconds", "1", "--every", "1/20", "--csv", &csv, "--measures", &measures]);
+    let (csv, measures) = (read(&csv), read(&measures));
+    assert_eq!(csv.lines().next(), Some(TRAJECTORY));
+    assert_eq!(measures.lines().next(), Some(MEASURES));
+    let (csv, measures) = (rows(&csv), rows(&measures));
+    assert_eq!((csv.len(), measures.len()), (2 * 21, 21));
+    assert_eq!(csv[0][..4], [0.0, 1.0, 1.0, 0.0], "the first body at its place at time 0");
+    for (k, row) in measures.iter().enumerate() {
+        // The time of a step is a sum or product of 1/60 s: right to a few ulps.
+        assert!((row[0] - k as f64 / 20.0).abs() < 1e-12, "{row:?}");
+        assert_eq!([csv[2 * k][0], csv[2 * k + 1][0]], [row[0]; 2]);
+    }
+    let last = &csv[csv.len() - 1];
+    assert!(last[3] < -0.5, "the lower bob has fallen: {last:?}");
+}
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(Path::new(path)).expect("the file that was asked for")
+}
+
+#[test]
+fn rows_come_at_the_step_nearest_to_each_sample_and_once_only() {
+    let times = |every: &str| {
+        let csv = prints(&["run", "pendulum", "--seconds", "0.1", "--hz", "100", "--every", every, "--csv", "-"]);
+        rows(&csv).iter().map(|row| (row[0] * 100.0).round()).collect::<Vec<_>>()
+    };
+    // 0, 2.4, 4.8, 7.2 and 9.6 steps
+    assert_eq!(times("0.024"), [0.0, 2.0, 5.0, 7.0, 10.0]);
+    assert_eq!(times("0.001"), (0..=10).map(f64::from).collect::<Vec<_>>());
+}
+
+#[test]
+fn written_numbers_are_read_back_with_the_same_bits() {
+    let csv = prints(&["run", "bridge", "--seconds", "0.5", "--every", "0.5", "--csv", "-"]);
+    let mut setup = tautline::scene::open("bridge").expect("a shipped scene");
+    let mut stepper = tautline::engine::Stepper::new(setup.method).expect("a sound method");
+    for _ in 0..30 {
+        stepper.step(&mut setup.world);
+    }
+    let rows = rows(&csv);
+    let last = &rows[setup.world.bodies().len()..];
+    for ((_, body), row) in setup.world.bodies().iter().zip(last) {
+        let spin = body.spin.unwrap_or_default();
+        let expected = [body.position.x, body.position.y, spin.angle, body.velocity.x, body.velocity.y, spin.omega];
+        assert_eq!(row[2..].iter().map(|x| x.to_bits()).collect::<Vec<_>>(), expected.map(f64::to_bits));
+    }
+}
+
+#[test]
+fn settings_on_the_command_line_replace_those_of_the_scene() {
+    let hash = |more: &[&str]| {
+        prints(&[&["run", "double_pendulum", "--seconds", "0.5", "--hash"], more].concat())
+            .lines()
+            .nth(1)
+            .map(str::to_owned)
+    };
+    let plain = hash(&[]);
+    assert_eq!(plain, hash(&[]), "the same run, the same hash");
+    for more in [
+        &["--hz", "120"][..],
+        &["--substeps", "3"],
+        &["--iterations", "2"],
+        &["--integrator", "velocity-verlet"],
+        &["--solver", "projection"],
+        &["--no-warm-start"],
+        &["--baumgarte", "0.05"],
+    ] {
+        assert_ne!(plain, hash(more), "{more:?} changes the run");
+    }
+}
+
+#[test]
+fn the_summary_stays_out_of_rows_on_standard_output() {
+    let output = tautline(&["run", "pendulum", "--seconds", "0.1", "--measures", "-", "--hash"]);
+    let (out, messages) = (text(&output.stdout), text(&output.stderr));
+    assert!(out.lines().all(|line| line.split(',').count() == 11), "{out}");
+    assert_eq!(messages.lines().count(), 2, "summary and hash: {messages}");
+}
+
+#[test]
+fn two_outputs_to_one_place_are_refused() {
+    fails(&["run", "rope", "--csv", "-", "--measures", "-"], 1, "give one of them another file name");
+    fails(&["run", "rope", "--csv", "same.csv", "--measures", "same.csv"], 1, "give one of them another file name");
+    assert!(!Path::new("same.csv").exists());
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_named() {
+    let folder = folder();
+    fails(&["run", "rope", "--csv", &path_in(&folder, "missing/out.csv")], 1, "missing/out.csv");
+    fails(&["run", "rope", "--csv", &folder.path().display().to_string()], 1, "cannot create");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_reported() {
+    fails(&["run", "rope", "--seconds", "0.1", "--csv", "/dev/full"], 1, "the disk is full");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_reader_that_leaves_early_ends_the_run_quietly() {
+    let mut child = command(&["run", "pile", "--seconds", "2", "--csv", "-"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("the program ends");
+    assert!(output.status.success(), "{:?}", output.status);
+    assert_eq!(text(&output.stderr), "");
+}
+
+#[test]
+fn a_run_that_diverges_writes_what_it_has_and_fails() {
+    let folder = folder();
+    let (scene, csv) = (path_in(&folder, "wild.ron"), path_in(&folder, "out.csv"));
+    // Falls at a million m/s² from just below the largest speed that a world accepts: reached after a second.
+    let wild = r#"(version: 1, settings: (gravity: (0, -1e6)), bodies: [Particle(velocity: (0, -9.9e7))])"#;
+    std::fs::write(&scene, wild).expect("a scene file");
+    fails(&["run", &scene, "--csv", &csv], 1, "the run diverged");
+    let rows = rows(&read(&csv));
+    assert!(rows.len() > 10 && rows.iter().flatten().all(|number| number.is_finite()), "{rows:?}");
+}
+
+#[test]
+#[cfg(not(feature = "desktop"))]
+fn a_build_without_a_window_says_so() {
+    let folder = folder();
+    let picture = path_in(&folder, "a.png");
+    fails(&[], 1, "this build has no window");
+    fails(&["open", "rope"], 1, "this build has no window");
+    fails(&["shot", "rope", &picture], 1, "this build has no window");
+    assert!(!Path::new(&picture).exists());
+}
