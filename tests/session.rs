@@ -4,6 +4,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
+use tautline::app::history::{History, State};
 use tautline::app::{Action, Button, Camera, Command, Edit, Frame, Join, Modifiers, Phase, PointerEvent};
 use tautline::app::{Session, Spawn, Tool, Tools, edit, keys, pick};
 use tautline::engine::{Anchor, Body, Constraint, DVec2, Id, Kind, Method, Motion, Spin, Wall, World};
@@ -159,7 +160,7 @@ fn restart_and_open_can_be_undone() {
 fn a_file_that_cannot_be_opened_keeps_the_running_scene() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("broken.ron");
-    std::fs::write(&path, "(version: 1, bodies: [Particle((mass: -1.0))])").expect("writable");
+    std::fs::write(&path, "(version: 1, bodies: [Particle(mass: -1.0)])").expect("writable");
     let mut world = World::new();
     let ball = add(&mut world, v(0.0, 0.0));
     let session = start(world);
@@ -281,6 +282,24 @@ fn the_plots_hold_every_step_even_those_without_a_frame() {
     assert_eq!(samples.len() as u64, frame.world.tick());
     assert!(frame.sequence < frame.world.tick(), "{} frames of {} steps", frame.sequence, frame.world.tick());
     assert!(samples.iter().zip(samples.iter().skip(1)).all(|(a, b)| a.measures.time < b.measures.time));
+}
+
+#[test]
+fn the_history_forgets_the_oldest_edits_but_never_the_last() {
+    let mut history = History::default();
+    let state = State { world: World::new(), method: Method::default(), start: Arc::new(setup(World::new())) };
+    for edit in 0..1000 {
+        history.record(format!("edit {edit}"), state.clone());
+    }
+    let mut kept = 0;
+    while history.undo(state.clone()).is_some() {
+        kept += 1;
+    }
+    assert_eq!(kept, 200);
+    assert_eq!(history.redo_name(), Some("edit 800"));
+    history.redo(state.clone()).expect("there is something to redo");
+    history.record("another".into(), state);
+    assert_eq!((history.undo_name(), history.redo_name()), (Some("another"), None));
 }
 
 /// Distance that a constraint wants between its ends [m].

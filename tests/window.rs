@@ -7,6 +7,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Long enough for a loaded machine that draws in software; a test that waits this long has failed.
@@ -18,14 +19,14 @@ const ONE_PARTICLE: &str = "(
     title: \"One particle\",
     view: (centre: (0.0, 0.0), height: 10.0),
     settings: (gravity: (0.0, 0.0)),
-    bodies: [Particle((position: (0.0, 0.0), radius: 0.5))],
+    bodies: [Particle(position: (0.0, 0.0), radius: 0.5)],
 )";
 
 /// A rope with so many sweeps that a step takes far longer than a picture.
 const OVERLOAD: &str = "(
     version: 1,
     title: \"Overload\",
-    settings: (iterations: 100000),
+    settings: (substeps: 40, iterations: 100000),
     generators: [Rope(name: \"rope\", from: (0.0, 0.0), to: (20.0, 0.0), links: 200)],
 )";
 
@@ -33,6 +34,8 @@ const OVERLOAD: &str = "(
 struct Display {
     server: Child,
     name: String,
+    /// One window at a time: several at once, drawn in software, would only measure each other.
+    _turn: MutexGuard<'static, ()>,
 }
 
 impl Display {
@@ -45,6 +48,9 @@ impl Display {
             println!("skipped: {tool} is not installed (Debian: xvfb xdotool imagemagick)");
             return None;
         }
+        static TURN: Mutex<()> = Mutex::new(());
+        // A test that failed has left nothing behind that would matter to the next.
+        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let arguments = ["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"];
         let mut server = Command::new("Xvfb");
         server.args(arguments).stdout(Stdio::piped()).stderr(Stdio::null());
@@ -52,7 +58,7 @@ impl Display {
         let mut number = String::new();
         let out = server.stdout.take().expect("it was piped");
         BufReader::new(out).read_line(&mut number).expect("Xvfb tells its display");
-        Some(Display { server, name: format!(":{}", number.trim()) })
+        Some(Display { server, name: format!(":{}", number.trim()), _turn: turn })
     }
 
     /// What a tool prints.
@@ -166,7 +172,9 @@ impl Sandbox<'_> {
         while !there(self) {
             assert!(begin.elapsed() < PATIENCE, "waited {PATIENCE:?} for {what}");
             let ended = self.process.try_wait().expect("a child can be asked");
-            assert!(ended.is_none(), "the program ended ({ended:?}) while the test waited for {what}");
+            if ended.is_some() {
+                panic!("the program ended ({ended:?}) while the test waited for {what}: {}", self.printed());
+            }
             std::thread::sleep(Duration::from_millis(50));
         }
     }
@@ -185,9 +193,14 @@ impl Sandbox<'_> {
         let path = folder.join("my scene.ron");
         // It may not have been saved before.
         let _ = std::fs::remove_file(&path);
-        self.key("ctrl+s");
-        self.key("Return");
-        self.wait("the file to be saved", |_| path.exists());
+        self.wait("the file to be saved", |s| {
+            // The field takes the keyboard in the pass after the shortcut: on a slow machine the key comes too early.
+            s.key("ctrl+s");
+            std::thread::sleep(Duration::from_millis(500));
+            s.key("Return");
+            std::thread::sleep(Duration::from_millis(500));
+            path.exists()
+        });
         tautline::scene::open(&path.display().to_string()).expect("what was saved can be read")
     }
 
@@ -201,10 +214,15 @@ impl Sandbox<'_> {
             std::thread::sleep(Duration::from_millis(50));
             status = self.process.try_wait().expect("a child can be asked");
         }
+        (status.expect("the loop has ended"), self.printed())
+    }
+
+    /// What it has printed on standard error; to be asked once, after its end.
+    fn printed(&mut self) -> String {
         let mut printed = String::new();
         let mut pipe = self.process.stderr.take().expect("it was piped");
         pipe.read_to_string(&mut printed).expect("messages are text");
-        (status.expect("the loop has ended"), printed)
+        printed
     }
 }
 
@@ -294,8 +312,9 @@ fn the_window_answers_while_a_step_takes_far_too_long() {
     let line = printed.lines().find(|line| line.starts_with("input to frame")).expect("times are printed");
     let median = line.split("median ").nth(1).and_then(|rest| rest.split(' ').next()).expect("a figure");
     let median: f64 = median.parse().expect("a number");
-    // A step takes half a second and more, a picture in software some 50 ms: the window waits for the picture alone.
-    assert!(median < 250.0, "{line}");
+    // A step takes many seconds. A picture takes 0.05 s in software, and several times that on two cores that also run the
+    // step and other programs: the window waits for the picture alone.
+    assert!(median < 1000.0, "{line}");
 }
 
 /// What the program prints on standard error, and its exit code, without a display unless `display` names one.
@@ -320,6 +339,7 @@ fn without_a_display_there_is_one_clear_line_and_exit_code_1() {
         assert_eq!(code, Some(1), "{printed}");
         assert_eq!(printed.lines().count(), 1, "{printed}");
         assert!(printed.contains("no window can be opened"), "{printed}");
+        assert!(!printed.contains(".rs:"), "a place in some source is of no use to a user: {printed}");
     }
 }
 

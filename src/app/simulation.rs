@@ -109,22 +109,28 @@ impl Simulation {
         }
     }
 
-    /// Steps once. A run that diverges, or a step that panics, pauses at the last good state with a fault.
+    /// Steps once. A run that diverges pauses at the last good state with a fault.
     pub(super) fn step(&mut self) {
+        self.guard(Simulation::take_step);
+    }
+
+    fn take_step(&mut self) {
         self.remember_previous();
-        let (world, stepper) = (&mut self.world, &mut self.stepper);
-        // The one place where a panic is caught: a defect in a step must cost the step, not the window and the user's work.
-        match catch_unwind(AssertUnwindSafe(|| stepper.step(world))) {
-            Ok(report) => {
-                if let Some(divergence) = &report.divergence {
-                    self.halt(divergence.to_string());
-                } else {
-                    self.measures = Measures::of(&self.world);
-                    self.plots.push(Sample::new(self.measures, &report));
-                }
-                self.report = report;
-            }
-            Err(_) => self.recover(),
+        let report = self.stepper.step(&mut self.world);
+        if let Some(divergence) = &report.divergence {
+            self.halt(divergence.to_string());
+        } else {
+            self.measures = Measures::of(&self.world);
+            self.plots.push(Sample::new(self.measures, &report));
+        }
+        self.report = report;
+    }
+
+    /// The one place where a panic is caught: a defect in a step or an edit must cost that step or edit, not the window and the
+    /// user's work.
+    fn guard(&mut self, act: impl FnOnce(&mut Simulation)) {
+        if catch_unwind(AssertUnwindSafe(|| act(self))).is_err() {
+            self.recover();
         }
     }
 
@@ -151,9 +157,11 @@ impl Simulation {
 
     /// Carries out one command. What fails leaves the run as it was and shows a fault.
     pub(super) fn apply(&mut self, command: Command) {
-        if let Err(fault) = self.try_apply(command) {
-            self.fault = Some(fault);
-        }
+        self.guard(|simulation| {
+            if let Err(fault) = simulation.try_apply(command) {
+                simulation.fault = Some(fault);
+            }
+        });
     }
 
     fn try_apply(&mut self, command: Command) -> Result<(), String> {
@@ -166,7 +174,7 @@ impl Simulation {
             Command::StepOnce => {
                 self.running = false;
                 self.fault = None;
-                self.step();
+                self.take_step();
             }
             Command::Restart => self.open((*self.start).clone(), "Restart"),
             Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
@@ -304,5 +312,32 @@ fn info(setup: &Setup, opened: u64) -> SceneInfo {
         about: setup.about.clone(),
         view: setup.view,
         opened,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Body;
+
+    #[test]
+    fn after_a_panic_the_run_pauses_at_the_state_shown_last() {
+        let mut world = World::new();
+        world.add_body(&Body::default()).expect("a sound body");
+        let about = String::new();
+        let setup =
+            Setup { name: "test".into(), title: about.clone(), about, world, method: Method::default(), view: None };
+        let mut simulation = Simulation::new(setup);
+        simulation.step();
+        let shown = simulation.publish(1, 1.0);
+        simulation.guard(|simulation| {
+            simulation.take_step();
+            panic!("on purpose, by a test");
+        });
+        assert_eq!(simulation.world, shown.world);
+        assert!(!simulation.running && simulation.fault.is_some());
+        simulation.apply(Command::Run(true));
+        simulation.step();
+        assert_eq!(simulation.world.tick(), 2);
     }
 }

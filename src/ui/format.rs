@@ -43,7 +43,9 @@ pub fn digits(value: f64) -> String {
     } else if !(1e-3..1e6).contains(&size) {
         minus(format!("{value:.2e}"))
     } else {
-        let decimals = (2.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
+        // What rounds up to the next power of ten has one digit more before the point.
+        let rounded = size * 1.0005;
+        let decimals = (2.0 - rounded.log10().floor()).clamp(0.0, 5.0) as usize;
         minus(format!("{value:.decimals$}"))
     }
 }

@@ -2,12 +2,13 @@
 
 use super::format::{round_si, si};
 use super::state::{PlotTab, State};
-use super::{theme, widgets};
+use super::theme;
 use crate::app::Frame;
 use crate::app::plot_data::{PLOT_SECONDS, Sample};
 use crate::engine::Stage;
 use crate::render::legend::SteadyRange;
-use egui::{Color32, Id, Label, RichText, Sense, Stroke, Ui, Vec2b};
+use egui::scroll_area::ScrollBarVisibility;
+use egui::{Color32, Id, Label, RichText, ScrollArea, Sense, Stroke, Ui, Vec2b};
 use egui_plot::{FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotUi};
 use std::time::Instant;
 
@@ -103,18 +104,15 @@ impl Plots {
         ui.horizontal(|ui| {
             tabs(ui, state);
             ui.add_space(2.0 * theme::GRID);
-            match state.plot {
-                PlotTab::Energy => energy_legend(ui, frame),
-                PlotTab::Violation => violation_legend(ui, frame),
-                PlotTab::StepTime => step_legend(ui, frame),
-            }
-            if state.plot == PlotTab::Violation {
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    ui.set_max_width(theme::LABEL_WIDTH + 48.0);
-                    let help = "Axis in powers of ten, or linear from zero.";
-                    widgets::switch(ui, "Logarithmic", &mut state.plot_log, Some(true), help);
-                });
-            }
+            // A legend too long for a narrow window is scrolled, and does not push the window's panels apart.
+            ScrollArea::horizontal().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden).show(
+                ui,
+                |ui| match state.plot {
+                    PlotTab::Energy => energy_legend(ui, frame),
+                    PlotTab::Violation => violation_legend(ui, frame, &mut state.plot_log),
+                    PlotTab::StepTime => step_legend(ui, frame),
+                },
+            );
         });
         match state.plot {
             PlotTab::Energy => self.energy(ui, frame),
@@ -135,7 +133,7 @@ impl Plots {
         let colours = theme::colours(ui).series;
         let range = [-self.energy[1].top(), self.energy[0].top().max(LEAST_TOP)];
         let label = |mark: GridMark| round_si(mark.value, "J");
-        plot(ui, "Energy plot", frame, range, label, |plot| {
+        plot(ui, "Energy plot", frame, Rise { range, decades: false }, label, |plot| {
             for (index, (name, _)) in ENERGIES.iter().enumerate() {
                 plot.line(Line::new(*name, curves.line(index, |v| v)).color(colours[index]).width(1.5));
             }
@@ -154,7 +152,7 @@ impl Plots {
             if logarithmic { round_si(10f64.powf(mark.value), "m") } else { round_si(mark.value, "m") }
         };
         let map = |value: f64| if logarithmic { value.max(1e-300).log10().max(high - DECADES) } else { value };
-        plot(ui, "Error plot", frame, range, label, |plot| {
+        plot(ui, "Error plot", frame, Rise { range, decades: logarithmic }, label, |plot| {
             for (index, (name, _)) in VIOLATIONS.iter().enumerate() {
                 plot.line(Line::new(*name, curves.line(index, map)).color(colours[index]).width(1.5));
             }
@@ -167,7 +165,8 @@ impl Plots {
         let (colours, weak) = (theme::colours(ui).series, theme::colours(ui).weak);
         let budget = 1e6 / (frame.method.hz * frame.speed.wanted.max(1e-6));
         let label = |mark: GridMark| round_si(mark.value * 1e-6, "s");
-        plot(ui, "Step time plot", frame, [0.0, self.step.top().max(1.0)], label, |plot| {
+        let rise = Rise { range: [0.0, self.step.top().max(1.0)], decades: false };
+        plot(ui, "Step time plot", frame, rise, label, |plot| {
             let mut below = vec![0.0; curves.times.len()];
             for (index, stage) in Stage::ALL.iter().enumerate() {
                 let above: Vec<f64> =
@@ -212,28 +211,27 @@ fn energy_legend(ui: &mut Ui, frame: &Frame) {
     }
 }
 
-fn violation_legend(ui: &mut Ui, frame: &Frame) {
+fn violation_legend(ui: &mut Ui, frame: &Frame, logarithmic: &mut bool) {
     let colours = theme::colours(ui).series;
     let values = [frame.measures.violation_max, frame.measures.penetration_max];
     for ((name, help), (value, colour)) in VIOLATIONS.iter().zip(values.into_iter().zip(colours)) {
         entry(ui, colour, name, &si(value, "m"), help);
     }
+    ui.checkbox(logarithmic, "Logarithmic").on_hover_text("Axis in powers of ten, or linear from zero.");
 }
 
 fn step_legend(ui: &mut Ui, frame: &Frame) {
     let colours = theme::colours(ui).series;
     for ((stage, micros), colour) in Stage::ALL.iter().zip(frame.report.stage_us).zip(colours) {
-        let help = "Part of the last step's time.";
-        entry(ui, colour, stage.name(), &si(micros * 1e-6, "s"), help);
+        // Six names fill the row; their values are in the plot.
+        swatch(ui, colour, stage.name(), &format!("{} of the last step.", si(micros * 1e-6, "s")));
+        ui.add_space(theme::GRID);
     }
 }
 
 /// A swatch, a name and the value now.
 fn entry(ui: &mut Ui, colour: Color32, name: &str, value: &str, tooltip: &str) {
-    let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, theme::ROW), Sense::hover());
-    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(3.0, colour));
-    let weak = theme::colours(ui).weak;
-    ui.label(RichText::new(name).color(weak)).on_hover_text(tooltip);
+    swatch(ui, colour, name, tooltip);
     // A fixed width, so that the row does not dance with its digits.
     let width = 60.0;
     ui.allocate_ui_with_layout(egui::vec2(width, theme::ROW), egui::Layout::left_to_right(egui::Align::Center), |ui| {
@@ -242,10 +240,34 @@ fn entry(ui: &mut Ui, colour: Color32, name: &str, value: &str, tooltip: &str) {
     });
 }
 
+fn swatch(ui: &mut Ui, colour: Color32, name: &str, tooltip: &str) {
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, theme::ROW), Sense::hover());
+    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(3.0, colour));
+    ui.label(RichText::new(name).color(theme::colours(ui).weak)).on_hover_text(tooltip);
+}
+
+/// The upward axis of a plot.
+struct Rise {
+    /// In the plot's unit, or its logarithm to the base of ten.
+    range: [f64; 2],
+    /// A line for every power of ten.
+    decades: bool,
+}
+
 /// A line every second, a label every five.
-fn seconds((from, to): (f64, f64)) -> Vec<GridMark> {
-    let step = |second: i64| if second % 5 == 0 { 5.0 } else { 1.0 };
-    (from.ceil() as i64..=to.floor() as i64).map(|s| GridMark { value: s as f64, step_size: step(s) }).collect()
+fn seconds(bounds: (f64, f64)) -> Vec<GridMark> {
+    whole_marks(bounds, 5)
+}
+
+/// A line every power of ten, a label where the unit's prefix changes.
+fn decades(bounds: (f64, f64)) -> Vec<GridMark> {
+    whole_marks(bounds, 3)
+}
+
+/// Marks at whole numbers, every `label`-th of them a main one.
+fn whole_marks((from, to): (f64, f64), label: i64) -> Vec<GridMark> {
+    let step = |n: i64| if n % label == 0 { label as f64 } else { 1.0 };
+    (from.ceil() as i64..=to.floor() as i64).map(|n| GridMark { value: n as f64, step_size: step(n) }).collect()
 }
 
 /// A plot of the last twenty seconds with a fixed range upwards.
@@ -253,17 +275,18 @@ fn plot<'a>(
     ui: &mut Ui,
     name: &'static str,
     frame: &Frame,
-    [low, high]: [f64; 2],
+    rise: Rise,
     label: impl Fn(GridMark) -> String + 'a,
     draw: impl FnOnce(&mut PlotUi<'a>) + 'a,
 ) {
+    let [low, high] = rise.range;
     let end = frame.measures.time.max(PLOT_SECONDS);
     let margin = (high - low) * 0.05;
     let bounds = PlotBounds::from_min_max([end - PLOT_SECONDS, low - margin], [end, high + margin]);
     let colours = theme::colours(ui);
     // The last label of the time axis is centred on the plot's end.
     let size = ui.available_size() - egui::vec2(4.0 * theme::GRID, 0.0);
-    let response = Plot::new(name)
+    let mut plot = Plot::new(name)
         .id(Id::unique(name))
         .width(size.x)
         .height(size.y)
@@ -280,11 +303,14 @@ fn plot<'a>(
         .x_grid_spacer(|input| seconds(input.bounds))
         .x_axis_formatter(|mark, _| format!("{} s", mark.value))
         .y_axis_formatter(move |mark, _| label(mark))
-        .sense(Sense::hover())
-        .show(ui, move |plot| {
-            plot.set_auto_bounds(Vec2b::FALSE);
-            plot.set_plot_bounds(bounds);
-            draw(plot);
-        });
+        .sense(Sense::hover());
+    if rise.decades {
+        plot = plot.y_grid_spacer(|input| decades(input.bounds));
+    }
+    let response = plot.show(ui, move |plot| {
+        plot.set_auto_bounds(Vec2b::FALSE);
+        plot.set_plot_bounds(bounds);
+        draw(plot);
+    });
     response.response.on_hover_cursor(egui::CursorIcon::Crosshair);
 }

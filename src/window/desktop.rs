@@ -123,13 +123,16 @@ impl ApplicationHandler<Wake> for Desktop {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, wake: Wake) {
         let Some(sandbox) = &mut self.sandbox else { return };
         match wake {
-            Wake::Frame => {}
-            Wake::Access(event) => sandbox.access(event.window_event),
+            // Steps come at their own pace, pictures at the monitor's.
+            Wake::Frame => event_loop.set_control_flow(sandbox.next(Duration::ZERO)),
+            Wake::Access(event) => {
+                sandbox.access(event.window_event);
+                sandbox.window.request_redraw();
+            }
         }
-        sandbox.window.request_redraw();
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {

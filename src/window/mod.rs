@@ -16,16 +16,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use timing::Timing;
 use winit::event_loop::EventLoop;
 
-/// What is opened if nothing is named.
-const FIRST_SCENE: &str = "bridge";
-
-/// Opens the sandbox on a shipped scene or a scene file, and returns when the window is closed.
+/// Opens the sandbox on a shipped scene (the first one if none is named) or a scene file, and returns when the window is closed.
 ///
 /// # Errors
 /// One line each: no display, a missing system library, no graphics adapter, a scene that cannot be opened.
 pub fn run(scene: Option<&str>) -> anyhow::Result<()> {
     let timing = Timing::start();
-    let name = scene.unwrap_or(FIRST_SCENE).to_owned();
+    let name = scene.unwrap_or(scene::shipped()[0].name).to_owned();
     // Read while the window and the graphics device are being set up.
     let setup = std::thread::spawn(move || scene::open(&name));
     let event_loop = match event_loop() {
@@ -50,11 +47,14 @@ fn event_loop() -> anyhow::Result<EventLoop<Wake>> {
     std::panic::set_hook(shown);
     match built {
         Ok(Ok(event_loop)) => Ok(event_loop),
-        Ok(Err(error)) => Err(anyhow!(
-            "no window can be opened: {}; start it in a desktop session, or use `tautline run` and `tautline shot`, which \
-             need no display",
-            one_line(&error.to_string())
-        )),
+        Ok(Err(error)) => {
+            log::info!("{error}");
+            Err(anyhow!(
+                "no window can be opened: {}; start it in a desktop session, or use `tautline run` and `tautline shot`, \
+                 which need no display",
+                display_problem()
+            ))
+        }
         Err(_) => Err(anyhow!(
             "no window can be opened: a library of the X window system is missing; on Debian or Ubuntu install \
              libxkbcommon-x11-0, libxcursor1 and libxi6"
@@ -62,9 +62,13 @@ fn event_loop() -> anyhow::Result<EventLoop<Wake>> {
     }
 }
 
-/// An error from a library, without its line breaks.
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+/// Why there is no display, as a user would say it: winit's own text names a line of its source.
+fn display_problem() -> String {
+    let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty()).map(|value| format!("{name}={value}"));
+    match set("WAYLAND_DISPLAY").or_else(|| set("DISPLAY")) {
+        Some(display) => format!("the display {display} does not answer"),
+        None => "there is no display (neither WAYLAND_DISPLAY nor DISPLAY is set)".into(),
+    }
 }
 
 /// Where between the last two states the picture stands, 0 … 1, `since` seconds after the later one was published.
