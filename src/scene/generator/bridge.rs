@@ -7,7 +7,8 @@ use crate::engine::{Body, DVec2, Motion, World};
 use serde::{Deserialize, Serialize};
 
 /// A deck of `links` links, hence nodes `name.0` … `name.links`, the first and the last fixed by default. It hangs in a parabola, which
-/// is its shape at rest: equal weights at equal horizontal distances. Its nodes do not touch each other.
+/// is its shape at rest: equal weights at equal horizontal distances. Its nodes do not touch each other. Banks are flush with
+/// it at a node's radius above its ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bridge {
