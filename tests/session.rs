@@ -338,7 +338,8 @@ fn a_failed_edit_changes_nothing_and_says_why() {
     let after = wait_for(&session, "the fault", |f| f.fault.is_some());
     assert_eq!(after.world, before.world);
     assert_eq!(after.undo, None);
-    session.send(Command::Edit(Edit::SetBody(ball, Body { mass: -1.0, ..Body::default() })));
+    let (from, to) = (Box::new(Body::default()), Box::new(Body { mass: -1.0, ..Body::default() }));
+    session.send(Command::Edit(Edit::ChangeBody { id: ball, from, to }));
     let after = wait_for(&session, "the other fault", |f| f.fault.as_deref().is_some_and(|text| text.contains("mass")));
     assert_eq!(after.world, before.world);
 }
@@ -544,4 +545,17 @@ fn no_two_actions_share_a_shortcut_and_every_tool_is_in_the_table() {
     for tool in joins.into_iter().chain(others).chain(Spawn::ALL.map(Tool::Spawn)) {
         assert!(!Action::Tool(tool).entry().help.is_empty());
     }
+}
+
+#[test]
+fn a_changed_property_keeps_the_motion_since_it_was_read() {
+    let mut world = World::new();
+    let ball = world.add_body(&Body { velocity: v(1.0, 2.0), ..Body::default() }).unwrap();
+    let read = world.body(ball).unwrap();
+    world.set_body(ball, &Body { position: v(7.0, 8.0), ..read }).unwrap();
+    let (from, to) = (Box::new(read), Box::new(Body { mass: 5.0, spin: Some(Spin::default()), ..read }));
+    change(&mut world, Edit::ChangeBody { id: ball, from, to });
+    let body = world.body(ball).unwrap();
+    assert_eq!((body.position, body.velocity, body.mass), (v(7.0, 8.0), v(1.0, 2.0), 5.0));
+    assert_eq!(body.spin, Some(Spin::default()));
 }

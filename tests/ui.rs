@@ -383,7 +383,7 @@ fn the_inspector_edits_a_mass_as_one_edit() {
     harness.run();
     let commands = taken(&mut harness);
     assert!(
-        matches!(&commands[..], [Command::Edit(Edit::SetBody(id, changed))] if *id == body && changed.mass == 2.5),
+        matches!(&commands[..], [Command::Edit(Edit::ChangeBody { id, to, .. })] if *id == body && to.mass == 2.5),
         "{commands:?}"
     );
     harness.state_mut().shell.select(vec![rod]);

@@ -58,7 +58,12 @@ pub enum Edit {
     Cut(DVec2, DVec2),
     /// Fixes bodies where they are, or frees them.
     Pin(Vec<Id>, bool),
-    SetBody(Id, Body),
+    /// Gives a body those properties of `to` that differ from `from`; the rest, such as the motion since `from` was read, stays.
+    ChangeBody {
+        id: Id,
+        from: Box<Body>,
+        to: Box<Body>,
+    },
     SetKind(Id, Kind),
     SetWall(Id, Wall),
     /// Joins two bodies, or a body and a point.
@@ -77,7 +82,7 @@ impl Edit {
             Edit::Cut(..) => "Cut".into(),
             Edit::Pin(_, true) => "Pin".into(),
             Edit::Pin(_, false) => "Unpin".into(),
-            Edit::SetBody(id, _) => format!("Change body {id}"),
+            Edit::ChangeBody { id, .. } => format!("Change body {id}"),
             Edit::SetKind(id, kind) => format!("Change {} {id}", kind.name().to_lowercase()),
             Edit::SetWall(id, _) => format!("Change wall {id}"),
             Edit::Join(constraint) => format!("Add {}", constraint.kind.name().to_lowercase()),

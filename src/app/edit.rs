@@ -24,12 +24,43 @@ pub fn apply(world: &mut World, edit: &Edit) -> Result<Vec<Id>, EditError> {
         Edit::Delete(ids) => Ok(delete(world, ids)),
         Edit::Cut(from, to) => Ok(cut(world, *from, *to)),
         Edit::Pin(ids, fixed) => pin(world, ids, *fixed),
-        Edit::SetBody(id, body) => Ok(world.set_body(*id, body).map(|()| vec![*id])?),
+        Edit::ChangeBody { id, from, to } => {
+            let changed = with_changes(world.body(*id)?, from, to);
+            Ok(world.set_body(*id, &changed).map(|()| vec![*id])?)
+        }
         Edit::SetKind(id, kind) => Ok(world.set_kind(*id, *kind).map(|()| vec![*id])?),
         Edit::SetWall(id, wall) => Ok(world.set_wall(*id, wall).map(|()| vec![*id])?),
         Edit::Join(constraint) => Ok(world.add_constraint(constraint).map(|id| vec![id])?),
         Edit::AddWall(wall) => Ok(world.add_wall(wall).map(|id| vec![id])?),
     }
+}
+
+/// `body` with those properties of `to` that differ from `from`.
+fn with_changes(mut body: Body, from: &Body, to: &Body) -> Body {
+    fn take<T: Copy + PartialEq>(value: &mut T, from: T, to: T) {
+        if from != to {
+            *value = to;
+        }
+    }
+    take(&mut body.motion, from.motion, to.motion);
+    take(&mut body.position.x, from.position.x, to.position.x);
+    take(&mut body.position.y, from.position.y, to.position.y);
+    take(&mut body.velocity.x, from.velocity.x, to.velocity.x);
+    take(&mut body.velocity.y, from.velocity.y, to.velocity.y);
+    take(&mut body.mass, from.mass, to.mass);
+    take(&mut body.radius, from.radius, to.radius);
+    take(&mut body.restitution, from.restitution, to.restitution);
+    take(&mut body.friction, from.friction, to.friction);
+    take(&mut body.collides, from.collides, to.collides);
+    take(&mut body.group, from.group, to.group);
+    match (&mut body.spin, from.spin, to.spin) {
+        (Some(spin), Some(from), Some(to)) => {
+            take(&mut spin.angle, from.angle, to.angle);
+            take(&mut spin.omega, from.omega, to.omega);
+        }
+        (spin, from, to) => take(spin, from, to),
+    }
+    body
 }
 
 /// Mass of a spawned body by its area [kg/m²]: a disc of 0.1 m has about a kilogram.

@@ -31,9 +31,10 @@ fn one(ui: &mut Ui, frame: &Frame, id: Id, commands: &mut Vec<Command>) {
     // Drafts of one thing must not show on the next.
     ui.push_id(id.0, |ui| match pick::item(world, id) {
         Some(pick::Item::Body(index)) => {
-            let mut changed = world.bodies().get(index);
+            let shown = world.bodies().get(index);
+            let mut changed = shown;
             if body(ui, id, &mut changed) {
-                commands.push(Command::Edit(Edit::SetBody(id, changed)));
+                commands.push(Command::Edit(Edit::ChangeBody { id, from: Box::new(shown), to: Box::new(changed) }));
             }
         }
         Some(pick::Item::Constraint(index)) => {
