@@ -45,7 +45,8 @@ impl Overlay<'_> {
         self.scale_bar(&painter, canvas, &colours);
         // One row along the lower edge: the upper one is kept for what went wrong.
         let mut start = canvas.left_bottom() + vec2(56.0, -EDGE - 12.0);
-        if self.view.tension && self.ranges.tension > 0.0 {
+        let links = !self.frame.world.constraints().is_empty();
+        if self.view.tension && links && self.ranges.tension > 0.0 {
             self.tension_legend(&painter, start, &colours);
             start.x += BAR.x + 2.0 * EDGE;
         }
