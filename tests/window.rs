@@ -4,7 +4,7 @@
 //! `TAUTLINE_REQUIRE_DISPLAY=1` forbids it.
 #![cfg(all(feature = "desktop", target_os = "linux"))]
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::Read;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -51,14 +51,15 @@ impl Display {
         static TURN: Mutex<()> = Mutex::new(());
         // A test that failed has left nothing behind that would matter to the next.
         let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
-        let arguments = ["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"];
-        let mut server = Command::new("Xvfb");
-        server.args(arguments).stdout(Stdio::piped()).stderr(Stdio::null());
-        let mut server = server.spawn().expect("Xvfb starts");
-        let mut number = String::new();
-        let out = server.stdout.take().expect("it was piped");
-        BufReader::new(out).read_line(&mut number).expect("Xvfb tells its display");
-        Some(Display { server, name: format!(":{}", number.trim()), _turn: turn })
+        // Numbers of our own: two test runs that both take the first free one can remove each other's sockets.
+        let own = std::process::id() % 50_000;
+        (0..10)
+            .find_map(|attempt| {
+                let name = format!(":{}", 100 + (own + 997 * attempt) % 50_000);
+                serve(&name).map(|server| (server, name))
+            })
+            .map(|(server, name)| Display { server, name, _turn: turn })
+            .or_else(|| panic!("Xvfb does not start"))
     }
 
     /// What a tool prints.
@@ -88,6 +89,25 @@ impl Display {
             std::thread::sleep(Duration::from_millis(50));
         }
     }
+}
+
+/// An X server that answers under this name; `None` if it ends, because the name is taken, say.
+fn serve(name: &str) -> Option<Child> {
+    // It must not start anew, and refuse a client meanwhile, each time that a tool was the only client.
+    let arguments = [name, "-noreset", "-screen", "0", "1280x800x24", "-nolisten", "tcp"];
+    let mut server = Command::new("Xvfb").args(arguments).stderr(Stdio::null()).spawn().expect("Xvfb starts");
+    let answers = || {
+        let mut question = Command::new("xdotool");
+        question.arg("getmouselocation").env("DISPLAY", name).stdout(Stdio::null()).stderr(Stdio::null());
+        question.status().is_ok_and(|status| status.success())
+    };
+    while server.try_wait().expect("a child can be asked").is_none() {
+        if answers() {
+            return Some(server);
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    None
 }
 
 impl Drop for Display {
