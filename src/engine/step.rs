@@ -6,6 +6,7 @@ use super::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use super::integrate::{self, Forces, Scene, add_spring_forces};
 use super::plan::Plan;
 use super::report::{Divergence, Stage, StepReport};
+use super::solve::feedback::feed_back;
 use super::solve::impact::Impacts;
 use super::solve::overlap::Planes;
 use super::solve::pgs::{Pgs, Task};
@@ -190,6 +191,7 @@ impl Stepper {
         report.residual = self.pgs.residual;
         laps.end(Stage::Solve);
         drift(&mut self.state, remaining);
+        feed_back::<SPIN>(&self.plan.joints, self.method.baumgarte, &mut self.state);
         self.keep_out_of_walls(world);
         laps.end(Stage::Update);
     }
@@ -226,9 +228,9 @@ impl Stepper {
     }
 
     fn task(&self, h: f64) -> Task {
-        let Method { integrator, iterations, warm_start, baumgarte, .. } = self.method;
+        let Method { integrator, iterations, warm_start, .. } = self.method;
         let share = if integrate::kicks_again(integrator) { 0.5 } else { 1.0 };
-        Task { h, iterations, warm_start, share, baumgarte }
+        Task { h, iterations, warm_start, share }
     }
 
     fn forget_multipliers(&mut self) {

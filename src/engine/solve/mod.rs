@@ -2,6 +2,7 @@
 //! projection of the positions, and the impacts that come before either.
 
 pub(crate) mod contact_rows;
+pub(crate) mod feedback;
 pub(crate) mod impact;
 pub(crate) mod overlap;
 pub(crate) mod pgs;

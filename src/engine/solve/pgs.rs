@@ -1,9 +1,9 @@
-//! Projected Gauss-Seidel on the velocities, with Baumgarte's position feedback.
+//! Projected Gauss-Seidel on the velocities.
 //!
 //! Solves A λ + b = 0 within bounds, A = J M⁻¹ Jᵀ + γ, without ever forming A: each row in turn gets the impulse that
 //! makes its own equation hold, clamped, and the velocities carry what changed to the other rows (Catto, "Iterative Dynamics
-//! with Temporal Coherence", 2005). Feedback: a rigid joint is asked to lose `baumgarte` of its error in the substep (Baumgarte,
-//! Comput. Methods Appl. Mech. Eng. 1, 1 (1972)), a spring's row obeys implicit Euler.
+//! with Temporal Coherence", 2005). A spring's row obeys implicit Euler; what a rigid joint is off by is fed back to the
+//! positions after the drift (see `feedback`), what contacts overlap before it (see `overlap`).
 //!
 //! Cost: O(rows) a sweep. It converges linearly, slowly where masses differ much along a chain (condition number of A): a
 //! heavy ball on a light rope stretches it. Redundant rows do no harm.
@@ -45,7 +45,6 @@ pub(crate) struct Task {
     pub warm_start: bool,
     /// Part of the substep whose impulses this solve finds: 1, or ½ where the substep solves twice.
     pub share: f64,
-    pub baumgarte: f64,
 }
 
 /// The rows of a substep and the impulses found.
@@ -115,18 +114,16 @@ impl Pgs {
         }
     }
 
-    /// Evaluates the rows anew at the positions reached, without position feedback: what is left asks that velocities
-    /// respect what holds. A contact that carried nothing is switched off. What was found so far counts on; PGS also starts
+    /// Evaluates the rows anew at the positions reached, so that the velocities respect what holds there. A contact that carried nothing is switched off. What was found so far counts on; PGS also starts
     /// from it, since both halves of a substep need about the same.
     pub fn reassemble<const SPIN: bool>(&mut self, world: &World, joints: &[Joint], state: &State, task: &Task) {
         self.found.clear();
         self.found.extend(self.joints.iter().map(|row| row.impulse));
         self.joints.clear();
-        let without_feedback = Task { baumgarte: 0.0, ..*task };
         for joint in joints {
             for row in joint.rows::<SPIN>(state).into_iter().flatten() {
                 let start = self.found.get(self.joints.len()).copied().unwrap_or(0.0);
-                self.joints.push(JointRow::of::<SPIN>(joint, &row, state, start, &without_feedback));
+                self.joints.push(JointRow::of::<SPIN>(joint, &row, state, start, task));
             }
         }
         for row in &mut self.contacts {
@@ -202,7 +199,7 @@ impl JointRow {
         } else if one_sided && row.error < 0.0 {
             (0.0, row.error / h)
         } else {
-            (0.0, task.baumgarte * row.error / h)
+            (0.0, 0.0)
         };
         JointRow {
             a: joint.a,
