@@ -47,6 +47,13 @@ impl State {
         self.inverse_mass.push(0.0);
         self.moves.clear();
         self.moves.extend(bodies.motion.iter().map(|motion| *motion != Motion::Static));
+        // A static body has a velocity only while the mouse leads it.
+        let led = world.grip.map(|grip| grip.body);
+        for (i, velocity) in self.velocity.iter_mut().enumerate().take(bodies.len()) {
+            if !self.moves[i] && led != Some(bodies.id[i]) {
+                *velocity = DVec2::ZERO;
+            }
+        }
         self.load_rotations(world, if spin { bodies.len() + 1 } else { 0 });
     }
 
@@ -59,7 +66,7 @@ impl State {
             let rotors = &world.bodies.rotors;
             for (rotor, body) in rotors.body.iter().enumerate() {
                 self.angle[*body as usize] = rotors.angle[rotor];
-                self.omega[*body as usize] = rotors.omega[rotor];
+                self.omega[*body as usize] = if self.moves[*body as usize] { rotors.omega[rotor] } else { 0.0 };
                 self.inverse_inertia[*body as usize] = rotors.inverse_inertia[rotor];
             }
         }

@@ -2,6 +2,7 @@
 
 use super::collide::sweep::{drift, keep_out_of_walls};
 use super::collide::{BroadPhase, find_contacts};
+use super::constraint::grip::lead_static;
 use super::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use super::integrate::{self, Forces, Scene, add_spring_forces};
 use super::plan::Plan;
@@ -105,6 +106,7 @@ impl Stepper {
     fn substep<const SPIN: bool>(&mut self, world: &World, report: &mut StepReport, laps: &mut Laps) {
         let h = self.method.substep_seconds();
         let Method { integrator, solver, .. } = self.method;
+        lead_static(world, &mut self.state, h);
         // A projection acts on predicted positions, so its contacts are found before anything moves.
         let early = solver == Solver::Projection && integrate::drifts_first(integrator);
         if early {

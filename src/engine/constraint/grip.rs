@@ -4,6 +4,7 @@
 //! Solved implicitly with the velocities: (K + γ) λ = −(J v + bias), λ then scaled back to the disc |λ| ≤ h f_max.
 //! K = w 1 + (1/I) ( r_y², −r_x r_y; −r_x r_y, r_x² ).
 
+use crate::engine::body::Motion;
 use crate::engine::state::State;
 use crate::engine::world::World;
 use glam::{DMat2, DVec2};
@@ -89,6 +90,21 @@ impl GripRows {
             state.omega[self.body] += state.inverse_inertia[self.body] * self.arm.perp_dot(impulse);
         }
     }
+}
+
+/// Leads a static body that is held, such as the pinned end of a rope, along the same damped spring; it feels nothing else.
+pub(crate) fn lead_static(world: &World, state: &mut State, h: f64) {
+    let Some(grip) = world.grip.as_ref() else { return };
+    let Some(body) = world.bodies.index_of(grip.body) else { return };
+    if world.bodies.motion[body] != Motion::Static {
+        return;
+    }
+    let omega = TAU * grip.frequency;
+    let error = state.position[body] + world.arm(body, grip.local) - grip.target;
+    // Implicit Euler of v' = −ω² error − 2 ζ ω v.
+    let slowed = 1.0 + 2.0 * grip.damping_ratio * omega * h + omega * omega * h * h;
+    state.velocity[body] = (state.velocity[body] - h * omega * omega * error) / slowed;
+    state.moves[body] = true;
 }
 
 /// `v`, shortened to `longest` if it is longer.

@@ -164,7 +164,8 @@ impl Constraints {
 
 /// The mouse's hold on a body: a spring and damper from a point of the body to the target, with a bounded force.
 ///
-/// Critically damped by default, and scaled by the body's mass, so that it feels the same for a gram and for a tonne.
+/// Critically damped by default, and scaled by the body's mass, so that it feels the same for a gram and for a tonne. A static
+/// body is led to the target as if nothing else acted on it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grip {
     pub body: Id,
