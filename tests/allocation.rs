@@ -56,7 +56,8 @@ fn a_warm_step_allocates_nothing() {
     ];
     assert!(ALLOCATIONS.load(Ordering::Relaxed) > 0, "the counter counts");
     for (name, warm_up) in scenes {
-        for solver in Solver::ALL {
+        // The pile once, as it takes a while to come to rest.
+        for solver in Solver::ALL.into_iter().filter(|solver| name != "pile" || *solver == Solver::Pgs) {
             let found = allocations(name, solver, warm_up);
             println!("{name}, {}: {found} allocations in 100 warm steps", solver.name());
             assert_eq!(found, 0, "{name}, {}", solver.name());

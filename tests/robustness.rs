@@ -5,13 +5,21 @@ use tautline::engine::{
     Tuning, Wall, World,
 };
 
-/// SplitMix64: numbers from a seed, so that a failure is found again by the seed that is printed.
-struct Random(u64);
+/// SplitMix64: numbers from a seed, so that a failure is found again by the seed that is printed. Worlds of odd seeds have
+/// absurd values among others, those of even seeds only what a user would build.
+struct Random {
+    state: u64,
+    absurd: bool,
+}
 
 impl Random {
+    fn new(seed: u64) -> Random {
+        Random { state: seed, absurd: seed % 2 == 1 }
+    }
+
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^ (z >> 31)
@@ -43,6 +51,7 @@ impl Random {
             // The same point for many, a corner of the accepted range, and far away.
             0 => DVec2::ZERO,
             1 => DVec2::new(1.0, 1.0),
+            2 | 3 if !self.absurd => DVec2::new(-1.0, 0.0),
             2 => DVec2::new(self.between(-1e9, 1e9), 1e9),
             3 => DVec2::new(self.between(-1e4, 1e4), self.between(-1e4, 1e4)),
             _ => DVec2::new(self.between(-3.0, 3.0), self.between(-3.0, 3.0)),
@@ -51,7 +60,7 @@ impl Random {
 }
 
 fn random_body(random: &mut Random) -> Body {
-    let absurd = random.one_in(4);
+    let absurd = random.absurd && random.one_in(4);
     let radius = match random.below(8) {
         0 => 0.0,
         1 if absurd => 1e6,
@@ -61,7 +70,7 @@ fn random_body(random: &mut Random) -> Body {
     Body {
         motion: [Motion::Dynamic, Motion::Dynamic, Motion::Dynamic, Motion::Static, Motion::Kinematic][random.below(5)],
         position: random.point(),
-        velocity: DVec2::from_angle(random.between(0.0, 7.0)) * random.scale(1e-3, if absurd { 9.9e7 } else { 1e3 }),
+        velocity: DVec2::from_angle(random.between(0.0, 7.0)) * random.scale(1e-3, if absurd { 9.9e7 } else { 30.0 }),
         mass: if absurd { random.scale(1e-12, 1e12) } else { random.scale(0.01, 100.0) },
         radius,
         spin: (radius >= 1e-9 && random.one_in(2))
@@ -74,7 +83,7 @@ fn random_body(random: &mut Random) -> Body {
 }
 
 fn random_kind(random: &mut Random) -> Kind {
-    let absurd = random.one_in(3);
+    let absurd = random.absurd && random.one_in(3);
     let length = if absurd { random.scale(1e-9, 1e9) } else { random.scale(0.1, 5.0) };
     match random.below(4) {
         0 => Kind::Rod { length },
@@ -123,9 +132,9 @@ fn random_world(random: &mut Random) -> World {
     for _ in 0..random.below(6) {
         edit(&mut world, |world| world.add_wall(&random_wall(random)).map(drop));
     }
-    let gravity = DVec2::new(0.0, -9.81) * [1.0, 0.0, 1e5][random.below(3)];
-    world.set_gravity(gravity).unwrap();
-    world.set_drag([0.0, 0.0, 0.5, 1e6][random.below(4)]).unwrap();
+    let (most_gravity, most_drag) = if random.absurd { (1e5, 1e6) } else { (2.0, 1.0) };
+    world.set_gravity(DVec2::new(0.0, -9.81) * [1.0, 0.0, most_gravity][random.below(3)]).unwrap();
+    world.set_drag([0.0, 0.0, 0.5, most_drag][random.below(4)]).unwrap();
     world
 }
 
@@ -189,7 +198,7 @@ fn is_finite(world: &World) -> bool {
 
 /// Ten seconds of one world, edited now and then; returns whether it diverged.
 fn survive(seed: u64, method: Method, edited: bool) -> bool {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let mut world = random_world(&mut random);
     let mut stepper = Stepper::new(method).unwrap();
     let mut diverged = false;
@@ -230,13 +239,20 @@ fn methods() -> Vec<Method> {
 
 #[test]
 fn random_worlds_run_for_ten_seconds_without_a_panic_or_a_nan() {
-    let mut diverged = 0;
+    let (mut diverged, mut plain) = (0, Vec::new());
     for method in methods() {
-        diverged += (0..150).filter(|seed| survive(*seed, method, false)).count();
+        for seed in (0..240).filter(|seed| survive(*seed, method, false)) {
+            diverged += 1;
+            if seed % 2 == 0 && method.integrator != Integrator::ExplicitEuler {
+                plain.push((seed, method.integrator, method.solver));
+            }
+        }
     }
-    println!("{diverged} of 1200 runs diverged and were taken back");
+    println!("{diverged} of 1920 runs diverged and were taken back, {plain:?} of them without an absurd value");
     // Otherwise divergence was never put to the test, or nothing else was.
-    assert!(diverged > 0 && diverged < 900);
+    assert!(diverged > 0 && diverged < 1200);
+    // A world that a user would build does not diverge at 30 Hz, except under explicit Euler.
+    assert!(plain.is_empty());
 }
 
 #[test]

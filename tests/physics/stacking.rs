@@ -2,7 +2,7 @@
 
 use super::figures::Figures;
 use super::lab::*;
-use tautline::engine::{Body, DVec2, Touching, Wall, World};
+use tautline::engine::{Body, DVec2, Solver, Touching, Wall, World};
 
 /// `count` discs of 0.25 m and 1 kg on each other on the ground.
 fn stack(count: u32) -> World {
@@ -28,7 +28,9 @@ fn a_stack_of_ten_stands_still_and_each_contact_carries_the_weight_above() {
         let top = position(&world, 9);
         run(&mut world, method, 10.0);
         figures.at_most(&format!("{name}, creep in the next 10 s [m]"), position(&world, 9).distance(top), 1e-4);
-        figures.at_most(&format!("{name}, speed [m/s]"), velocity(&world, 9).length(), 1e-3);
+        // A projection mends positions: the velocities may keep what gravity adds in a substep, g h.
+        let rest = if method.solver == Solver::Projection { 1.01 * G * method.substep_seconds() } else { 1e-3 };
+        figures.at_most(&format!("{name}, speed [m/s]"), velocity(&world, 9).length(), rest);
         for contact in world.contacts() {
             let below = match contact.b {
                 Touching::Body(b) => contact.a.min(b) + 1,
