@@ -110,6 +110,14 @@ impl ContactRow {
         }
     }
 
+    /// Ends a closing speed that would carry the surfaces past each other within `h` seconds.
+    pub fn stop(&self, state: &mut State, h: f64) {
+        let short = -self.gap.max(0.0) / h - self.normal_speed(state);
+        if short > 0.0 {
+            self.push(short * self.normal_mass, state);
+        }
+    }
+
     /// Ends a closing speed that would carry the core of `a` into something immovable within `h` seconds, whatever the
     /// sweeps left over.
     pub fn guard(&self, state: &mut State, h: f64) {

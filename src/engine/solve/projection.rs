@@ -4,11 +4,14 @@
 //! Each constraint in turn is made to hold by moving its bodies along its own J, weighted by their inverse masses, with J
 //! and C evaluated anew at every visit; the velocities then get the moves divided by the substep.
 //!
-//! A spring takes the part s = K/(K + α/h²) of its error away, which is implicit Euler's answer for a spring alone, spread
-//! over n sweeps as 1 − (1 − s)^(1/n). Cost: O(constraints) a sweep, with a square root each. First order; it damps, and a
+//! A spring k with a damper c takes the part s = 1 − 1/(1 + σ h (h k + c) K) of its distance to C* away, which is implicit
+//! Euler's answer for a spring alone, spread over n sweeps as 1 − (1 − s)^(1/n). C* = C₀ c/(h k + c), with C₀ at the start of
+//! the substep: the damper holds C where it was, the spring pulls it to zero. σ is the share of the substep's impulse that
+//! moves positions, ½ in velocity Verlet. Cost: O(constraints) a sweep, with a square root each. First order; it damps, and a
 //! chain looks stretched or soft where the sweeps do not suffice.
 
 use super::overlap::Planes;
+use super::pgs::Task;
 use crate::engine::constraint::form::Joint;
 use crate::engine::state::State;
 use glam::DVec2;
@@ -19,13 +22,21 @@ pub(crate) struct Projection {
     /// Positions and angles before the projection.
     start: Vec<DVec2>,
     start_angle: Vec<f64>,
-    /// Part of the error of each joint to be taken away in a visit.
-    part: Vec<f64>,
+    /// C of each joint at the start of the substep [m].
+    before: Vec<f64>,
+    /// What a visit does to each joint: the part of its distance to an aim that it takes away, and the aim [m].
+    pull: Vec<(f64, f64)>,
     /// Largest change of a constraint's value in the last sweep [m].
     pub residual: f64,
 }
 
 impl Projection {
+    /// Keeps the values of the constraints at the start of a substep.
+    pub fn remember<const SPIN: bool>(&mut self, joints: &[Joint], state: &State) {
+        self.before.clear();
+        self.before.extend(joints.iter().map(|joint| joint.rows::<SPIN>(state)[0].map_or(0.0, |row| row.error)));
+    }
+
     /// Projects `state`, whose positions are predictions, and corrects its velocities. Multipliers [N] are added to `force`,
     /// impulses to the rows of the contacts. Returns the number of sweeps.
     pub fn solve<const SPIN: bool>(
@@ -33,7 +44,7 @@ impl Projection {
         joints: &[Joint],
         planes: &mut Planes,
         state: &mut State,
-        (h, iterations): (f64, u32),
+        task: &Task,
         force: &mut [DVec2],
     ) -> u32 {
         if joints.is_empty() && planes.rows.is_empty() {
@@ -41,11 +52,12 @@ impl Projection {
         }
         self.start.clone_from(&state.position);
         self.start_angle.clone_from(&state.angle);
-        self.divide_stiffness::<SPIN>(joints, state, h, iterations);
+        self.divide_stiffness::<SPIN>(joints, state, task);
+        let Task { h, iterations, .. } = *task;
         for _ in 0..iterations {
             self.residual = 0.0;
-            for (joint, part) in joints.iter().zip(&self.part) {
-                let moved = project::<SPIN>(joint, *part, state, h, force);
+            for (joint, pull) in joints.iter().zip(&self.pull) {
+                let moved = project::<SPIN>(joint, *pull, state, h, force);
                 self.residual = self.residual.max(moved);
             }
             for i in 0..planes.rows.len() {
@@ -57,18 +69,20 @@ impl Projection {
         iterations
     }
 
-    fn divide_stiffness<const SPIN: bool>(&mut self, joints: &[Joint], state: &State, h: f64, iterations: u32) {
-        self.part.clear();
-        for joint in joints {
-            let part = match joint.rows::<SPIN>(state)[0] {
+    fn divide_stiffness<const SPIN: bool>(&mut self, joints: &[Joint], state: &State, task: &Task) {
+        let Task { h, iterations, share, .. } = *task;
+        self.pull.clear();
+        for (joint, before) in joints.iter().zip(&self.before) {
+            let pull = match joint.rows::<SPIN>(state)[0] {
                 Some(row) if joint.form.stiffness.is_finite() => {
                     let k = joint.inverse_effective_mass::<SPIN>(&row, state);
-                    let left = 1.0 / (1.0 + h * (h * joint.form.stiffness + joint.form.damping) * k);
-                    1.0 - libm::pow(left, 1.0 / f64::from(iterations))
+                    let soft = h * joint.form.stiffness + joint.form.damping;
+                    let left = 1.0 / (1.0 + share * h * soft * k);
+                    (1.0 - libm::pow(left, 1.0 / f64::from(iterations)), before * joint.form.damping / soft)
                 }
-                _ => 1.0,
+                _ => (1.0, 0.0),
             };
-            self.part.push(part);
+            self.pull.push(pull);
         }
     }
 
@@ -83,7 +97,13 @@ impl Projection {
 }
 
 /// One visit; returns by how much it changed C [m].
-fn project<const SPIN: bool>(joint: &Joint, part: f64, state: &mut State, h: f64, force: &mut [DVec2]) -> f64 {
+fn project<const SPIN: bool>(
+    joint: &Joint,
+    (part, aim): (f64, f64),
+    state: &mut State,
+    h: f64,
+    force: &mut [DVec2],
+) -> f64 {
     let mut largest: f64 = 0.0;
     let of_joint = &mut force[joint.index as usize];
     for (axis, multiplier) in [&mut of_joint.x, &mut of_joint.y].into_iter().enumerate() {
@@ -91,7 +111,7 @@ fn project<const SPIN: bool>(joint: &Joint, part: f64, state: &mut State, h: f64
         if joint.form.high == 0.0 && row.error <= 0.0 {
             break;
         }
-        let change = -part * row.error;
+        let change = part * (aim - row.error);
         let lambda = change / joint.inverse_effective_mass::<SPIN>(&row, state);
         let (a, b) = (joint.a as usize, joint.b as usize);
         state.position[a] -= state.inverse_mass[a] * lambda * row.normal;

@@ -1,0 +1,13 @@
+//! Physics against closed forms, which the tests compute themselves. Every figure is printed; run with `--nocapture` to read.
+
+mod chains;
+mod figures;
+mod free_motion;
+mod friction;
+mod grip;
+mod impacts;
+mod lab;
+mod oscillation;
+mod pendulum;
+mod stacking;
+mod tunnelling;
