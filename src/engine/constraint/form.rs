@@ -115,4 +115,32 @@ impl Joint {
         }
         speed
     }
+
+    /// ½ h J̇v of each row [m/s], at the present positions and velocities.
+    ///
+    /// A drift along J v = 0 leaves the circle on which a joint turns; one with J v = −½ h J̇v follows the chord of its arc and
+    /// keeps the speed. Turning by more than a radian in `h` seconds counts as one radian.
+    pub fn half_turning<const SPIN: bool>(&self, state: &State, h: f64) -> DVec2 {
+        let (a, b) = (self.a as usize, self.b as usize);
+        let (r_a, r_b) = (state.arm::<SPIN>(self.a, self.at_a), state.arm::<SPIN>(self.b, self.at_b));
+        let offset = state.position[b] + r_b - state.position[a] - r_a;
+        let mut speed = state.velocity[b] - state.velocity[a];
+        let mut towards_centre = DVec2::ZERO;
+        if SPIN {
+            let turning = |omega: f64| (omega * omega).min(1.0 / (h * h));
+            towards_centre = turning(state.omega[a]) * r_a - turning(state.omega[b]) * r_b;
+            speed += state.omega[b] * r_b.perp() - state.omega[a] * r_a.perp();
+        }
+        let distance = offset.length();
+        match self.form.measure {
+            Measure::Offset => 0.5 * h * towards_centre,
+            Measure::Distance { .. } if distance > 0.0 => {
+                let normal = offset / distance;
+                let across = normal.perp_dot(speed).abs();
+                let turning = across * (h * across / distance).min(1.0);
+                DVec2::new(0.5 * (h * normal.dot(towards_centre) + turning), 0.0)
+            }
+            Measure::Distance { .. } => DVec2::ZERO,
+        }
+    }
 }

@@ -89,8 +89,9 @@ impl Pgs {
         for joint in joints {
             let start = force[joint.index as usize] * warm;
             let [first, second] = joint.rows::<SPIN>(state);
-            self.joints.extend(first.map(|row| JointRow::of::<SPIN>(joint, &row, state, start.x, task)));
-            self.joints.extend(second.map(|row| JointRow::of::<SPIN>(joint, &row, state, start.y, task)));
+            let turning = joint.half_turning::<SPIN>(state, task.h);
+            self.joints.extend(first.map(|row| JointRow::of::<SPIN>(joint, &row, state, turning.x, start.x, task)));
+            self.joints.extend(second.map(|row| JointRow::of::<SPIN>(joint, &row, state, turning.y, start.y, task)));
         }
         for (row, contact) in self.contacts.iter_mut().zip(contacts) {
             // All of a gap may close in the substep; an overlap is not the velocities' business (see `overlap`).
@@ -123,7 +124,7 @@ impl Pgs {
         for joint in joints {
             for row in joint.rows::<SPIN>(state).into_iter().flatten() {
                 let start = self.found.get(self.joints.len()).copied().unwrap_or(0.0);
-                self.joints.push(JointRow::of::<SPIN>(joint, &row, state, start, task));
+                self.joints.push(JointRow::of::<SPIN>(joint, &row, state, 0.0, start, task));
             }
         }
         for row in &mut self.contacts {
@@ -189,7 +190,15 @@ impl Pgs {
 }
 
 impl JointRow {
-    fn of<const SPIN: bool>(joint: &Joint, row: &Row, state: &State, warm_impulse: f64, task: &Task) -> JointRow {
+    /// `turning` is the row's ½ h J̇v if a drift follows, so that a rigid joint keeps its length through it.
+    fn of<const SPIN: bool>(
+        joint: &Joint,
+        row: &Row,
+        state: &State,
+        turning: f64,
+        warm_impulse: f64,
+        task: &Task,
+    ) -> JointRow {
         let form = &joint.form;
         let h = task.h;
         let one_sided = form.high == 0.0;
@@ -197,9 +206,9 @@ impl JointRow {
             let soft = h * form.stiffness + form.damping;
             (1.0 / (task.share * h * soft), row.error * form.stiffness / soft)
         } else if one_sided && row.error < 0.0 {
-            (0.0, row.error / h)
+            (0.0, row.error / h + turning)
         } else {
-            (0.0, 0.0)
+            (0.0, turning)
         };
         JointRow {
             a: joint.a,
