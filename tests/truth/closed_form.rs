@@ -73,11 +73,12 @@ fn a_pendulum_keeps_its_energy() {
     let h = 1e-3;
     for i in 1..5000 {
         let t = f64::from(i) * 2e-3;
-        // Central difference of sixth order: the error is (ω h)⁶/140 of the speed, the rounding 1e-16/h.
+        // Central difference of sixth order, whose own error is far below what the phase's ulp of 4e-15 makes at 4.4 m/s when
+        // it is divided by h: 4e-11 J.
         let difference = |n: f64| pendulum.at(t + n * h) - pendulum.at(t - n * h);
         let velocity = (45.0 * difference(1.0) - 9.0 * difference(2.0) + difference(3.0)) / (60.0 * h);
         let energy = 0.5 * velocity.length_squared() + 9.81 * pendulum.at(t).y;
-        assert!(energy.abs() < 1e-11, "{energy:e} J at {t} s");
+        assert!(energy.abs() < 1e-10, "{energy:e} J at {t} s");
     }
 }
 
