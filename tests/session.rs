@@ -183,6 +183,7 @@ fn what_is_saved_opens_again_as_it_was() {
     let session = start(world);
     session.send(Command::Run(false));
     session.send(Command::SaveAs(path.clone()));
+    wait_for(&session, "word that it was saved", |f| f.saved.as_deref() == path.to_str());
     session.send(Command::Open(path.display().to_string()));
     let frame = wait_for(&session, "the file to open", |f| f.scene.name == path.display().to_string());
     assert_eq!(frame.fault, None);

@@ -147,6 +147,7 @@ fn bridge() -> Frame {
         running: true,
         speed: Speed { wanted: 1.0, achieved: 0.62 },
         fault: None,
+        saved: None,
         undo: Some("Cut".into()),
         redo: None,
         touched: Arc::default(),
@@ -326,6 +327,11 @@ fn typing_a_path_opens_the_file_and_save_writes_one() {
     harness.get_by_label("Save as…").click();
     harness.run();
     assert!(matches!(&taken(&mut harness)[..], [Command::SaveAs(path)] if path.extension().is_some()));
+    let mut saved = bridge();
+    saved.saved = Some("mine.ron".into());
+    harness.state_mut().frame = Arc::new(saved);
+    harness.run();
+    harness.get_by_label("Saved to mine.ron");
 }
 
 #[test]

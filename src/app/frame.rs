@@ -50,6 +50,8 @@ pub struct Frame {
     pub speed: Speed,
     /// What went wrong last, and how to mend it, until dismissed or resolved.
     pub fault: Option<String>,
+    /// The file that the scene was last written to, until it is edited or left.
+    pub saved: Option<String>,
     /// Names of the edits that undo and redo would act on.
     pub undo: Option<String>,
     pub redo: Option<String>,

@@ -31,6 +31,8 @@ pub(super) struct Simulation {
     running: bool,
     speed: f64,
     fault: Option<String>,
+    /// The file that the scene was last written to, until it is edited or left.
+    saved: Option<String>,
     /// What the last edit made or changed.
     touched: Arc<Vec<Id>>,
     opened: u64,
@@ -55,6 +57,7 @@ impl Simulation {
             running: fault.is_none(),
             speed: 1.0,
             fault,
+            saved: None,
             touched: Arc::default(),
             opened: 1,
             published: None,
@@ -103,6 +106,7 @@ impl Simulation {
             running: self.running,
             speed: Speed { wanted: self.speed, achieved },
             fault: self.fault.clone(),
+            saved: self.saved.clone(),
             undo: self.history.undo_name().map(str::to_owned),
             redo: self.history.redo_name().map(str::to_owned),
             touched: self.touched.clone(),
@@ -187,6 +191,7 @@ impl Simulation {
                 let setup =
                     Setup { world: self.world.clone(), method: *self.stepper.method(), ..(*self.start).clone() };
                 scene::save(&path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
+                self.saved = Some(path.display().to_string());
             }
             Command::Method(method) => self.stepper.set_method(method).map_err(text)?,
             Command::Gravity(gravity) => self.world.set_gravity(gravity).map_err(text)?,
@@ -236,6 +241,7 @@ impl Simulation {
             Ok(touched) if touched.is_empty() => {}
             Ok(touched) => {
                 self.touched = Arc::new(touched);
+                self.saved = None;
                 self.history.record(edit.name(), before);
                 self.measure_anew();
             }
@@ -260,6 +266,7 @@ impl Simulation {
         // A new stepper: the old one's plan and memory belong to another world.
         (self.stepper, self.fault) = stepper(state.method);
         self.plots.rewind(self.world.time());
+        self.saved = None;
         self.report = StepReport::default();
         self.measure_anew();
     }

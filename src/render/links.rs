@@ -305,6 +305,7 @@ mod tests {
             running: true,
             speed: Speed { wanted: 1.0, achieved: 1.0 },
             fault: None,
+            saved: None,
             undo: None,
             redo: None,
             touched: std::sync::Arc::default(),

@@ -4,12 +4,12 @@ use super::state::{Field, State};
 use super::{theme, widgets};
 use crate::app::{Command, Frame};
 use crate::scene::Shipped;
-use egui::{Key, ScrollArea, TextEdit, Ui};
+use egui::{Key, Label, RichText, ScrollArea, TextEdit, Ui};
 
 /// The sections "Scenes" and "Save as…".
 pub fn show(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
     widgets::section(ui, "Scenes", true, |ui| list(ui, frame, scenes, state, commands));
-    widgets::section(ui, "Save", true, |ui| save(ui, state, commands));
+    widgets::section(ui, "Save", true, |ui| save(ui, frame, state, commands));
 }
 
 /// The scenes whose name or title holds every word of `filter`, in their order.
@@ -81,7 +81,7 @@ impl egui::Widget for LeftAligned<'_> {
     }
 }
 
-fn save(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
+fn save(ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let width = ui.available_width() - 76.0;
         let edit = TextEdit::singleline(&mut state.save_path).hint_text("Path of a file").desired_width(width);
@@ -97,4 +97,7 @@ fn save(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
             state.focus = Some(Field::Canvas);
         }
     });
+    if let Some(path) = &frame.saved {
+        ui.add(Label::new(RichText::new(format!("Saved to {path}")).weak()).truncate());
+    }
 }

@@ -3,7 +3,7 @@
 use super::figures::{Figures, order};
 use super::lab::*;
 use std::f64::consts::TAU;
-use tautline::engine::{Body, DVec2, Grip, Method, Spin, World};
+use tautline::engine::{Body, Constraint, DVec2, Grip, Kind, Method, Motion, Spin, World};
 
 /// Angular frequency of the hold [rad/s].
 const OMEGA: f64 = TAU * 7.5;
@@ -119,5 +119,30 @@ fn a_body_let_go_keeps_its_velocity() {
         world.set_grip(None).unwrap();
         run(&mut world, method, 1.0);
         assert_eq!(velocity(&world, 0), thrown, "{}", label(&method));
+    }
+}
+
+#[test]
+fn a_pinned_body_follows_the_mouse_and_stays_where_it_is_let_go() {
+    let mut figures = Figures::default();
+    for method in every_method(rate(60.0, 4, 10)) {
+        let mut world = weightless();
+        let pinned = world.add_body(&Body { motion: Motion::Static, ..point(v(0.0, 0.0), DVec2::ZERO) }).unwrap();
+        let hanging = world.add_body(&point(v(1.0, 0.0), DVec2::ZERO)).unwrap();
+        world.add_constraint(&Constraint::between(Kind::Rod { length: 1.0 }, pinned, hanging)).unwrap();
+        world.set_grip(Some(Grip::new(pinned, DVec2::ZERO, v(0.0, 0.5), 1.0))).unwrap();
+        run(&mut world, method, 1.0);
+        // Critically damped at 7.5 Hz: (1 + ωt) e^(−ωt) after one second is far below rounding.
+        figures.at_most(
+            &format!("{}, off the mouse [m]", label(&method)),
+            position(&world, 0).distance(v(0.0, 0.5)),
+            1e-9,
+        );
+        let stretch = position(&world, 0).distance(position(&world, 1)) - 1.0;
+        figures.at_most(&format!("{}, rod stretched [m]", label(&method)), stretch.abs(), 1e-3);
+        world.set_grip(None).unwrap();
+        let before = position(&world, 0);
+        run(&mut world, method, 0.5);
+        assert_eq!(position(&world, 0), before, "{}: a pinned body moves by itself", label(&method));
     }
 }
