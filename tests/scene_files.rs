@@ -84,7 +84,7 @@ const BROKEN: &[(&str, usize, usize, &str)] = &[
     ("text_for_number", 4, 38, "found the text \"heavy\""),
     ("timeless_truth", 3, 22, "between 1/60 and 3600 s"),
     ("trailing", 2, 1, "`and` after the end"),
-    ("truth_without_length", 3, 25, "Add `length: …`"),
+    ("truth_without_length", 3, 24, "Add `length: …`"),
     ("unclosed", 5, 1, "Close every bracket"),
     ("unknown_attribute", 1, 16, "scenes need none"),
     ("unknown_field", 4, 32, "Did you mean `mass`?"),
