@@ -301,6 +301,44 @@ fn a_stretched_spring_keeps_its_windings() {
 }
 
 #[test]
+fn a_short_spring_is_still_a_coil() {
+    // From 8 points on; nearer ones are a dash.
+    let kinds = [7.0, 9.0, 14.0, 20.0, 40.0].map(|scale| {
+        let mut world = World::new();
+        let a = world.add_body(&Body::default()).unwrap();
+        let spring = Kind::Spring { rest: 0.9, stiffness: 1.0, damping: 0.0 };
+        world.add_constraint(&Constraint::to_world(spring, a, DVec2::X)).unwrap();
+        let mut picture = Picture::new();
+        picture.build(&frame(world), &camera(DVec2::ZERO, scale, [600, 400]), &bare(), 1.0);
+        picture.springs().first().map_or(0.0, |spring| spring.windings)
+    });
+    assert_eq!(kinds, [0.0, 2.0, 2.0, 4.0, 8.0]);
+}
+
+#[test]
+fn ranges_belong_to_a_scene_and_stay_while_it_is_paused() {
+    let mut world = disc_world(DVec2::ZERO, 0.5);
+    let id = world.bodies().id[0];
+    let mut at_speed = |speed: f64| {
+        world.set_body(id, &Body { velocity: DVec2::new(speed, 0.0), ..Body::default() }).unwrap();
+        world.clone()
+    };
+    let (fast, slow) = (frame(at_speed(8.0)), at_speed(1.0));
+    let mut picture = Picture::new();
+    let mut range = |frame: &Frame| {
+        picture.build(frame, &camera(DVec2::ZERO, 100.0, [600, 400]), &bare(), 1.0);
+        picture.speed_range()
+    };
+    assert_eq!(range(&fast), 10.0);
+    let later = |seconds| Instant::now() + std::time::Duration::from_secs(seconds);
+    for seconds in [1, 60, 120] {
+        assert_eq!(range(&Frame { world: slow.clone(), published: later(seconds), ..fast.clone() }), 10.0);
+    }
+    let info = SceneInfo { opened: 1, ..SceneInfo::default() };
+    assert_eq!(range(&Frame { world: slow, scene: Arc::new(info), ..fast }), 1.0);
+}
+
+#[test]
 fn a_spring_is_drawn_as_a_coil_of_that_many_windings() {
     let Some(gpu) = gpu() else { return };
     let mut world = World::new();

@@ -139,6 +139,36 @@ fn undo_and_redo_restore_the_exact_state() {
 }
 
 #[test]
+fn a_change_of_a_setting_is_undone_as_one_and_by_its_name() {
+    let mut world = World::new();
+    let ball = add(&mut world, v(0.1, 0.2));
+    let session = start(world);
+    pause(&session);
+    for y in [-9.0, -5.0, -1.0] {
+        session.send(Command::Gravity(v(0.0, y)));
+    }
+    let changed = wait_for(&session, "the last gravity", |f| f.world.gravity().y == -1.0);
+    assert_eq!(changed.undo.as_deref(), Some("Change gravity"));
+    // The energy follows at once: a kilogram at 0.2 m.
+    let potential = changed.measures.potential;
+    assert!((potential - 0.2).abs() < 1e-15, "{potential} J");
+    session.send(Command::Gravity(v(0.0, -1.0)));
+    session.send(Command::Method(Method { substeps: 3, ..Method::default() }));
+    session.send(Command::Edit(Edit::Delete(vec![ball])));
+    wait_for(&session, "the ball to go", |f| f.world.body(ball).is_err());
+    session.send(Command::Undo);
+    let undone = wait_for(&session, "the ball again", |f| f.world.body(ball).is_ok());
+    assert_eq!((undone.world.gravity().y, undone.method.substeps), (-1.0, 3), "undo takes back what it names only");
+    assert_eq!(undone.undo.as_deref(), Some("Change substeps"));
+    session.send(Command::Undo);
+    session.send(Command::Undo);
+    let undone = wait_for(&session, "everything undone", |f| f.undo.is_none());
+    assert_eq!((undone.world.gravity().y, undone.method), (-9.81, Method::default()));
+    session.send(Command::Redo);
+    wait_for(&session, "the last gravity again", |f| f.world.gravity().y == -1.0);
+}
+
+#[test]
 fn restart_and_open_can_be_undone() {
     let mut world = World::new();
     add(&mut world, v(0.0, 0.0));
@@ -391,6 +421,28 @@ fn picking_takes_the_smallest_exact_hit_else_the_nearest_within_reach() {
     assert_eq!(at(0.0, -2.07), Some(rod));
     assert_eq!(pick::pick_body(&world, &camera(), camera().to_canvas(v(0.0, -2.0))), None);
     assert_eq!(pick::within(&world, v(-0.5, -0.5), v(0.5, 0.5)), [large, small]);
+}
+
+#[test]
+fn a_rod_among_the_beads_that_hide_it_is_picked_by_its_line_and_the_beads_elsewhere() {
+    let mut world = World::new();
+    let bead = |x: f64| Body { position: v(x, 0.0), radius: 0.14, ..Body::default() };
+    let beads: Vec<Id> = (0..5).map(|i| world.add_body(&bead(0.2 * f64::from(i))).expect("valid")).collect();
+    let rods: Vec<Id> = beads.windows(2).map(|pair| rod(&mut world, 0.2, pair[0], pair[1])).collect();
+    let bob = world.add_body(&Body { position: v(0.0, -3.0), radius: 0.4, ..Body::default() }).expect("valid");
+    let hanger = Constraint::to_world(Kind::Rod { length: 2.0 }, bob, v(0.0, -1.0));
+    let hanger = world.add_constraint(&hanger).expect("valid");
+    // 1 m are 80 points: a rod is 3.2 points wide.
+    let camera = Camera { scale: 80.0, ..camera() };
+    let at = |x: f64, y: f64| pick::pick(&world, &camera, camera.to_canvas(v(x, y)));
+    assert_eq!((at(0.3, 0.0), at(0.3, 0.01)), (Some(rods[1]), Some(rods[1])));
+    assert_eq!((at(0.2, 0.0), at(0.4, 0.0)), (Some(beads[1]), Some(beads[2])));
+    assert_eq!(at(0.24, 0.08), Some(beads[1]));
+    // A lone rod is drawn below its bob, and cannot be hit there.
+    assert_eq!((at(0.0, -2.0), at(0.0, -2.7)), (Some(hanger), Some(bob)));
+    let mut hand = Hand { camera, ..Hand::with(Tool::Drag) };
+    hand.drag(&world, v(0.3, 0.0), v(0.3, 0.0));
+    assert_eq!(hand.tools.selection(), [rods[1]], "a click with the drag tool selects what lies on top");
 }
 
 /// Tools with their canvas, as a window would drive them.

@@ -134,6 +134,7 @@ fn bridge() -> Frame {
             title: "Rope bridge".into(),
             about: "A heavy disc rolls to and fro over a bridge. Grab the deck or the disc.".into(),
             view: Some((DVec2::new(0.0, 1.0), 7.0)),
+            bounds: pick::bounds(&deck(), &[]),
             opened: 1,
         }),
         world,
@@ -400,6 +401,44 @@ fn the_inspector_edits_a_mass_as_one_edit() {
     assert!(
         matches!(&commands[..], [Command::Edit(Edit::SetKind(id, Kind::Rod { length }))] if *id == rod && *length == 1.5)
     );
+}
+
+#[test]
+fn another_scene_begins_with_nothing_selected() {
+    let (frame, body, rod) = pair();
+    let mut harness = harness(frame);
+    harness.state_mut().shell.select(vec![body, rod]);
+    harness.run();
+    assert_eq!(harness.state().shell.tools().selection().len(), 2);
+    // Ids of the same numbers exist there too, and mean other things.
+    harness.state_mut().frame = Arc::new(bridge());
+    harness.run();
+    assert!(harness.state().shell.tools().selection().is_empty());
+}
+
+#[test]
+fn fitting_shows_what_a_scene_began_with_wherever_its_bodies_are_now() {
+    for name in ["bullet", "cloth", "pile", "soft_body", "playground", "bouncing_balls"] {
+        let setup = scene::open(name).expect("a shipped scene");
+        let bounds = pick::bounds(&setup.world, &[]);
+        let info = SceneInfo { name: name.into(), view: setup.view, bounds, opened: 3, ..SceneInfo::default() };
+        let mut harness = harness(Frame { scene: Arc::new(info), world: setup.world, ..bridge() });
+        harness.run();
+        let desk = harness.state();
+        let (min, max) = bounds.expect("something is there");
+        assert!(
+            desk.canvas.x_range().contains(desk.at(min).x) && desk.canvas.x_range().contains(desk.at(max).x),
+            "{name}"
+        );
+        let seen = desk.camera;
+        let mut empty = World::new();
+        empty.add_body(&Body { position: DVec2::new(90.0, 0.0), ..Body::default() }).expect("a good body");
+        let frame = Frame { world: empty, ..(*desk.frame).clone() };
+        harness.state_mut().frame = Arc::new(frame);
+        harness.key_press(Key::Home);
+        harness.run();
+        assert_eq!(harness.state().camera, seen, "{name}");
+    }
 }
 
 #[test]

@@ -15,6 +15,8 @@ pub struct SceneInfo {
     pub about: String,
     /// Rectangle that the scene asks to show: centre and height [m].
     pub view: Option<(DVec2, f64)>,
+    /// Corners of the smallest box around everything at the start [m]; `None` if the scene is empty.
+    pub bounds: Option<(DVec2, DVec2)>,
     /// Counts openings and restarts, so that the window knows when to fit its view anew.
     pub opened: u64,
 }

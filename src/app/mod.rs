@@ -3,6 +3,7 @@
 
 pub mod camera;
 pub mod command;
+pub mod drawn;
 pub mod edit;
 pub mod frame;
 pub mod history;
@@ -10,6 +11,7 @@ pub mod keys;
 pub mod pick;
 pub mod plot_data;
 pub mod session;
+mod setting;
 mod simulation;
 pub mod tools;
 

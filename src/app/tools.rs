@@ -95,7 +95,8 @@ enum Gesture {
     },
     /// Since the canvas point of the press.
     Grip {
-        body: Id,
+        /// What a click there selects: the body held, or what lies over it.
+        picked: Id,
         pressed: DVec2,
         moved: bool,
     },
@@ -205,6 +206,11 @@ impl Tools {
         Vec::new()
     }
 
+    /// Forgets what is selected, hovered and going on: another scene was opened, whose ids mean other things.
+    pub fn forget(&mut self) {
+        *self = Tools { tool: self.tool, ..Tools::default() };
+    }
+
     /// Forgets what no longer exists in `world`. To be called with every new frame.
     pub fn follow(&mut self, world: &World) {
         self.selection.retain(|id| pick::item(world, *id).is_some());
@@ -259,7 +265,8 @@ impl Tools {
         match self.tool {
             Tool::Drag => match pick::pick_body(world, camera, event.canvas) {
                 Some(body) => {
-                    self.gesture = Gesture::Grip { body, pressed: event.canvas, moved: false };
+                    let picked = pick::pick(world, camera, event.canvas).unwrap_or(body);
+                    self.gesture = Gesture::Grip { picked, pressed: event.canvas, moved: false };
                     return vec![Command::Grab { body, at: free }];
                 }
                 None => self.gesture = Gesture::Box { from: free },
@@ -299,9 +306,9 @@ impl Tools {
         }
         let to = self.pointer.unwrap_or_else(|| camera.to_world(event.canvas));
         match (std::mem::take(&mut self.gesture), self.tool) {
-            (Gesture::Grip { body, moved, .. }, _) => {
+            (Gesture::Grip { picked, moved, .. }, _) => {
                 if !moved {
-                    self.choose(vec![body], event.modifiers);
+                    self.choose(vec![picked], event.modifiers);
                 }
                 vec![Command::Release]
             }

@@ -23,6 +23,8 @@ pub struct Shell {
     pub(super) state: State,
     defaults: Defaults,
     plots: Plots,
+    /// Opening of the scene that the tools belong to.
+    opened: u64,
     /// Opening of the scene that the view was fitted to.
     fitted: Option<u64>,
     /// The theme that the context was last given.
@@ -113,6 +115,11 @@ impl Shell {
 
     fn follow(&mut self, frame: &Arc<Frame>) {
         self.defaults.follow(frame);
+        if self.opened != frame.scene.opened {
+            self.opened = frame.scene.opened;
+            self.tools.forget();
+            self.duplicated = None;
+        }
         if let Some(before) = &self.duplicated
             && !Arc::ptr_eq(before, &frame.touched)
         {
