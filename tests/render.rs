@@ -10,7 +10,7 @@ use tautline::engine::{
     Body, Constraint, DVec2, Grip, Id, Kind, Method, Motion, Spin, StepReport, Stepper, Wall, World,
 };
 use tautline::measure::Measures;
-use tautline::render::marks::{DiscMark, MarkKind};
+use tautline::render::marks::{DiscMark, Ends, MarkKind};
 use tautline::render::offscreen::{FORMAT, begin_scene, render};
 use tautline::render::{Colour, Extra, Gpu, Image, Picture, Renderer, Theme, ViewOptions, Viewport};
 
@@ -39,6 +39,7 @@ fn frame(world: World) -> Frame {
         undo: None,
         redo: None,
         plots: tautline::app::Plots::default(),
+        trace: tautline::app::Trace::default(),
         touched: std::sync::Arc::default(),
     }
 }
@@ -411,6 +412,31 @@ fn trails_follow_the_selected_bodies_and_start_anew_with_the_scene() {
     }
     frame.scene = Arc::new(SceneInfo { opened: 1, ..SceneInfo::default() });
     assert_eq!(lines(&frame), 0);
+}
+
+#[test]
+fn a_trail_goes_through_the_steps_between_two_pictures() {
+    let mut world = disc_world(DVec2::new(1.0, 0.0), 0.1);
+    let hanger = Constraint::to_world(Kind::Rod { length: 1.0 }, world.bodies().id[0], DVec2::ZERO);
+    world.add_constraint(&hanger).unwrap();
+    let mut frame = frame(world);
+    let mut stepper = Stepper::new(Method::default()).unwrap();
+    let options = ViewOptions { trails: true, tension: false, ..bare() };
+    let view = camera(DVec2::ZERO, 100.0, [600, 400]);
+    let mut picture = Picture::new();
+    picture.build(&frame, &view, &options, 1.0);
+    for _ in 0..30 {
+        stepper.step(&mut frame.world);
+        frame.trace.push(&frame.world);
+    }
+    picture.build(&frame, &view, &options, 1.0);
+    // One piece a step, but for the first, which is too short to be drawn, and the rod: the pendulum's arc, a metre from its
+    // pivot, and no chord across it.
+    assert_eq!(picture.lines().len(), 30);
+    let trail = picture.lines().iter().filter(|line| line.ends == Ends::Square as u32);
+    // Points on the canvas: 100 of them are a metre, of which the rod may be off by some thousandths.
+    let off = trail.map(|line| (line.start[0].hypot(line.start[1]) - 100.0).abs()).fold(0.0, f32::max);
+    assert!(off < 0.5, "{off} points beside the arc");
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn v(x: f64, y: f64) -> DVec2 {
 
 fn setup(world: World) -> Setup {
     let (title, about) = ("Test".into(), String::new());
-    Setup { name: "test".into(), title, about, world, method: Method::default(), view: None }
+    Setup { name: "test".into(), title, about, world, method: Method::default(), names: Default::default(), view: None }
 }
 
 fn start(world: World) -> Session {
@@ -522,7 +522,7 @@ fn the_right_button_pans_and_the_wheel_zooms_to_the_cursor() {
 }
 
 #[test]
-fn the_join_tool_joins_bodies_and_points_and_refuses_two_points() {
+fn the_join_tool_joins_bodies_and_points_and_hangs_a_particle_between_two_points() {
     let mut world = World::new();
     let (a, b) = (add(&mut world, v(0.0, 0.0)), add(&mut world, v(2.0, 0.0)));
     let mut hand = Hand::with(Tool::Join(Join::Rod));
@@ -536,7 +536,16 @@ fn the_join_tool_joins_bodies_and_points_and_refuses_two_points() {
         [Command::Edit(Edit::Join(joined))] => assert!(matches!(joined.b, Anchor::World(_)), "{joined:?}"),
         other => panic!("{other:?}"),
     }
-    assert!(hand.drag(&world, v(-1.0, 1.0), v(-2.0, 1.0)).is_empty(), "both ends would be fixed");
+    let hang = match &hand.drag(&world, v(-1.0, 1.0), v(-2.0, 1.0))[..] {
+        [Command::Edit(hang @ Edit::Hang { .. })] => hang.clone(),
+        other => panic!("{other:?}"),
+    };
+    let before = world.bodies().len();
+    let mut hung = world.clone();
+    assert_eq!(change(&mut hung, hang).len(), 2, "the particle and its rod");
+    assert_eq!((hung.bodies().len(), hung.bodies().position[before]), (before + 1, v(-2.0, 1.0)));
+    assert_eq!((hung.ends(0), hung.constraints().kind[0]), ((v(-2.0, 1.0), v(-1.0, 1.0)), Kind::Rod { length: 1.0 }));
+    assert!(hand.drag(&world, v(-1.0, 1.0), v(-1.01, 1.0)).is_empty(), "a click between two points joins nothing");
     assert!(hand.drag(&world, v(0.0, 0.0), v(0.02, 0.0)).is_empty(), "both ends would be the same body");
 }
 
@@ -593,6 +602,11 @@ fn no_two_actions_share_a_shortcut_and_every_tool_is_in_the_table() {
         }
         assert!(entry.action.tooltip().ends_with(']'), "every action has a shortcut: {}", entry.name);
     }
+    let zoom_out = Action::ZoomOut.entry().shortcuts[0];
+    assert_eq!(
+        (zoom_out.to_string(), Action::Slower.entry().shortcuts[0].to_string()),
+        ("Ctrl-Minus".into(), "−".into())
+    );
     let joins = [Join::Rod, Join::Spring, Join::Rope].map(Tool::Join);
     let others = [Tool::Drag, Tool::Select, Tool::Cut, Tool::Wall];
     for tool in joins.into_iter().chain(others).chain(Spawn::ALL.map(Tool::Spawn)) {

@@ -1,6 +1,7 @@
 //! What the simulation thread publishes: one immutable picture of everything that the window shows.
 
 use super::plot_data::Plots;
+use super::trace::Trace;
 use crate::engine::{DVec2, Id, Method, StepReport, World};
 use crate::measure::Measures;
 use std::sync::Arc;
@@ -46,6 +47,8 @@ pub struct Frame {
     pub measures: Measures,
     /// The last 20 s of measures and stage times, every step of them.
     pub plots: Plots,
+    /// Where the bodies were after each of the last steps.
+    pub trace: Trace,
     /// What the plan decided, in one sentence.
     pub plan: String,
     pub running: bool,

@@ -14,6 +14,7 @@ pub mod session;
 mod setting;
 mod simulation;
 pub mod tools;
+pub mod trace;
 
 pub use camera::Camera;
 pub use command::{Command, Edit, Spawn};
@@ -23,3 +24,4 @@ pub use plot_data::{Plots, Sample};
 pub use session::Session;
 pub use simulation::frame_after;
 pub use tools::{Button, Feedback, Join, Modifiers, Phase, PointerEvent, Tool, Tools};
+pub use trace::Trace;

@@ -5,6 +5,7 @@ use super::edit;
 use super::frame::{Frame, SceneInfo, Speed};
 use super::history::{History, State};
 use super::plot_data::{Plots, Sample};
+use super::trace::Trace;
 use super::{pick, setting};
 use crate::engine::{DVec2, EngineError, Grip, Id, Method, StepReport, Stepper, World};
 use crate::measure::Measures;
@@ -30,6 +31,7 @@ pub(super) struct Simulation {
     /// The setting that the last command changed, and when.
     setting: Option<(&'static str, Instant)>,
     plots: Plots,
+    trace: Trace,
     report: StepReport,
     measures: Measures,
     previous_position: Vec<DVec2>,
@@ -57,6 +59,7 @@ impl Simulation {
             history: History::default(),
             setting: None,
             plots: Plots::default(),
+            trace: Trace::default(),
             report: StepReport::default(),
             measures: Measures::of(&start.world),
             previous_position: Vec::new(),
@@ -109,6 +112,7 @@ impl Simulation {
             report: self.report.clone(),
             measures: self.measures,
             plots: self.plots.clone(),
+            trace: self.trace.clone(),
             plan: self.stepper.plan(&self.world).sentence().to_string(),
             running: self.running,
             speed: Speed { wanted: self.speed, achieved },
@@ -133,6 +137,7 @@ impl Simulation {
         } else {
             self.measures = Measures::of(&self.world);
             self.plots.push(Sample::new(self.measures, &report));
+            self.trace.push(&self.world);
         }
         self.report = report;
     }
@@ -322,6 +327,7 @@ impl Simulation {
         self.measures = Measures::of(&self.world);
         self.previous_position.clear();
         self.previous_angle.clear();
+        self.trace.clear();
     }
 
     fn grab(&mut self, id: Id, at: DVec2) -> Result<(), EngineError> {
@@ -380,8 +386,15 @@ mod tests {
         let mut world = World::new();
         world.add_body(&Body::default()).expect("a sound body");
         let about = String::new();
-        let setup =
-            Setup { name: "test".into(), title: about.clone(), about, world, method: Method::default(), view: None };
+        let setup = Setup {
+            name: "test".into(),
+            title: about.clone(),
+            about,
+            world,
+            method: Method::default(),
+            names: Default::default(),
+            view: None,
+        };
         let mut simulation = Simulation::new(setup);
         simulation.step();
         let shown = simulation.publish(1, 1.0);

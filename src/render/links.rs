@@ -257,6 +257,7 @@ mod tests {
             report: StepReport::default(),
             measures: Measures::default(),
             plots: crate::app::Plots::default(),
+            trace: crate::app::Trace::default(),
             plan: String::new(),
             running: true,
             speed: Speed { wanted: 1.0, achieved: 1.0 },

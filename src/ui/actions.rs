@@ -49,6 +49,11 @@ impl Shell {
                 self.act_on_selection(action, scene)
             }
             Action::Tool(tool) => scene.commands.extend(self.tools.set_tool(tool)),
+            Action::Toggle(what) => {
+                let on = self.state.shown(what);
+                *on = !*on;
+            }
+            Action::ToggleTheme => self.state.theme = self.state.theme.other(),
             Action::FullScreen => *scene.full_screen = true,
             Action::Quit => *scene.quit = true,
             Action::Escape => self.escape(scene.commands),
@@ -98,12 +103,15 @@ impl Shell {
         }
     }
 
-    /// Gives up one thing: the palette, the help, then what the tool is about.
+    /// Gives up one thing: the palette, the help, what is typed to find a scene, then what the tool is about.
     fn escape(&mut self, commands: &mut Vec<Command>) {
         if self.state.finder.take().is_some() {
             self.state.focus = Some(Field::Canvas);
         } else if self.state.help {
             self.state.help = false;
+        } else if !self.tools.busy() && !self.state.scene_filter.is_empty() {
+            self.state.scene_filter.clear();
+            self.state.focus = Some(Field::Canvas);
         } else {
             commands.extend(self.tools.escape());
         }

@@ -148,8 +148,7 @@ fn trimmed(value: f64, decimals: usize) -> String {
         return format!("{value:.2e}");
     }
     let shown = if size >= 1000.0 { decimals.min(1) } else { decimals };
-    let text = format!("{value:.shown$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    super::format::plain(value, shown)
 }
 
 /// A row: label on the left, a dot if `changed`, and what `content` adds from the right edge leftwards.
