@@ -93,7 +93,7 @@ pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Optio
             widgets::note(ui, "Nothing found. Esc closes this list.");
         }
         let height = LINES * (theme::ROW + 2.0 * theme::GRID);
-        ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+        widgets::scroll(ui, ScrollArea::vertical().max_height(height).auto_shrink([false, true]), |ui| {
             for (index, line) in lines.iter().enumerate() {
                 let response = row(ui, line, index == finder.chosen);
                 if follow && index == finder.chosen {

@@ -8,8 +8,7 @@ use crate::app::plot_data::{PLOT_SECONDS, Sample};
 use crate::engine::Stage;
 use crate::measure::Measures;
 use crate::render::legend::{SteadyRange, step_down, step_up};
-use egui::scroll_area::ScrollBarVisibility;
-use egui::{Color32, Id, Label, RichText, ScrollArea, Sense, Stroke, Ui, Vec2b};
+use egui::{Color32, FontId, Id, Rangef, Role, Sense, Shape, Stroke, Ui, Vec2b, WidgetInfo, pos2};
 use egui_plot::{AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotUi};
 use std::time::Instant;
 
@@ -108,18 +107,14 @@ impl Plots {
         if self.opened != frame.scene.opened {
             *self = Plots { opened: frame.scene.opened, ..Plots::default() };
         }
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             tabs(ui, state);
             ui.add_space(2.0 * theme::GRID);
-            // A legend too long for a narrow window is scrolled, and does not push the window's panels apart.
-            ScrollArea::horizontal().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden).show(
-                ui,
-                |ui| match state.plot {
-                    PlotTab::Energy => energy_legend(ui, frame),
-                    PlotTab::Violation => violation_legend(ui, frame, &mut state.plot_log),
-                    PlotTab::StepTime => step_legend(ui, frame),
-                },
-            );
+            match state.plot {
+                PlotTab::Energy => energy_legend(ui, frame),
+                PlotTab::Violation => violation_legend(ui, frame, &mut state.plot_log),
+                PlotTab::StepTime => step_legend(ui, frame),
+            }
         });
         match state.plot {
             PlotTab::Energy => self.energy(ui, frame),
@@ -248,28 +243,35 @@ fn step_legend(ui: &mut Ui, frame: &Frame) {
     }
     let help = "Time that a step may take to keep up with the wanted speed: the dashed line. It is out of sight while steps \
                 take far less.";
-    let (rect, _) = ui.allocate_exact_size(egui::vec2(16.0, theme::ROW), Sense::hover());
-    let [left, right] = [rect.left_center(), rect.right_center()];
-    ui.painter().extend(egui::Shape::dashed_line(&[left, right], Stroke::new(1.5, weak), 4.0, 3.0));
-    named(ui, "Budget", &si(budget(frame) * 1e-6, "s"), help);
+    let line = |at: Rangef, y: f32| Shape::dashed_line(&[pos2(at.min, y), pos2(at.max, y)], (1.5, weak), 4.0, 2.0);
+    marked(ui, line, "Budget", &si(budget(frame) * 1e-6, "s"), help);
 }
 
-/// A swatch, a name and the value now.
+/// A stroke of a curve's colour, its name and its value now.
 fn entry(ui: &mut Ui, colour: Color32, name: &str, value: &str, tooltip: &str) {
-    let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, theme::ROW), Sense::hover());
-    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(3.0, colour));
-    named(ui, name, value, tooltip);
+    marked(ui, |at, y| vec![Shape::hline(at, y, Stroke::new(3.0, colour))], name, value, tooltip);
 }
 
-/// A name and a value in a room that takes "−999 mJ", so that the row does not dance with its digits.
-fn named(ui: &mut Ui, name: &str, value: &str, tooltip: &str) {
-    const ROOM: f32 = 56.0;
-    ui.label(RichText::new(name).color(theme::colours(ui).weak)).on_hover_text(tooltip);
-    let left = egui::Layout::left_to_right(egui::Align::Center);
-    ui.allocate_ui_with_layout(egui::vec2(ROOM, theme::ROW), left, |ui| {
-        ui.set_min_width(ROOM);
-        ui.add(Label::new(value).extend()).on_hover_text(tooltip);
-    });
+/// A line as in the plot, a name and a value, in one piece when the row is wrapped.
+fn marked(ui: &mut Ui, line: impl Fn(Rangef, f32) -> Vec<Shape>, name: &str, value: &str, tooltip: &str) {
+    const LINE: f32 = 14.0;
+    /// Room for "−999 mJ", so that the row does not dance with its digits.
+    const VALUE: f32 = 56.0;
+    let colours = theme::colours(ui);
+    let words =
+        |text: &str, colour| ui.painter().layout_no_wrap(text.into(), FontId::proportional(theme::BODY), colour);
+    let (name_words, value_words) = (words(name, colours.weak), words(value, colours.text));
+    let after_name = LINE + 2.0 * theme::GRID + name_words.size().x;
+    let size = egui::vec2(after_name + value_words.size().x.max(VALUE), theme::ROW);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name} {value}")));
+    let y = rect.center().y;
+    ui.painter().extend(line(Rangef::new(rect.left(), rect.left() + LINE), y));
+    for (x, words) in [(LINE + theme::GRID, name_words), (after_name, value_words)] {
+        let at = pos2(rect.left() + x, y - words.size().y / 2.0);
+        ui.painter().galley(at, words, colours.text);
+    }
+    response.on_hover_text(tooltip);
 }
 
 /// The upward axis of a plot.

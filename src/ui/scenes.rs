@@ -67,7 +67,8 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
         widgets::note(ui, "No scene of that name. Enter opens a path such as ./bridge.ron, Esc shows all scenes.");
     }
     let height = (ui.available_height() - 88.0).max(4.0 * theme::ROW);
-    ScrollArea::vertical().id_salt("scenes").max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+    let area = ScrollArea::vertical().id_salt("scenes").max_height(height).auto_shrink([false, true]);
+    widgets::scroll(ui, area, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         for scene in found {
             let here = scene.name == frame.scene.name;

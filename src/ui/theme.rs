@@ -170,7 +170,12 @@ pub fn apply(ctx: &egui::Context, theme: Theme) {
         spacing.tooltip_width = 320.0;
         spacing.icon_width = 16.0;
         // Solid: beside what it scrolls and not over it, and seen before the pointer is there.
-        spacing.scroll = ScrollStyle { bar_width: 1.5 * GRID, bar_inner_margin: GRID, ..ScrollStyle::solid() };
+        spacing.scroll = ScrollStyle {
+            bar_width: 1.5 * GRID,
+            bar_inner_margin: GRID,
+            foreground_color: true,
+            ..ScrollStyle::solid()
+        };
         style.interaction.tooltip_delay = 0.35;
         style.interaction.selectable_labels = false;
     });

@@ -3,8 +3,8 @@
 use super::icon::{self, Icon};
 use super::{draft, theme};
 use egui::{
-    Align, DragValue, Label, Layout, Rect, Response, RichText, Role, Sense, Slider, SliderClamping, Stroke, StrokeKind,
-    Ui, UiBuilder, Vec2, WidgetInfo, vec2,
+    Align, DragValue, Label, Layout, Rect, Response, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke,
+    StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -269,6 +269,19 @@ fn focus_ring(ui: &Ui, response: &Response, rect: Rect) {
         let stroke = Stroke::new(1.5, theme::colours(ui).accent);
         ui.painter().rect_stroke(rect.expand(1.5), theme::GRID, stroke, StrokeKind::Outside);
     }
+}
+
+/// What is too long for its place, with a bar beside it that is seen but does not shout: egui gives it the colour of text.
+pub fn scroll(ui: &mut Ui, area: ScrollArea, content: impl FnOnce(&mut Ui)) {
+    let bar = theme::colours(ui).weak.gamma_multiply(0.5);
+    ui.scope(|ui| {
+        let widgets = ui.visuals().widgets.clone();
+        ui.visuals_mut().widgets.inactive.fg_stroke.color = bar;
+        area.show(ui, |ui| {
+            ui.visuals_mut().widgets = widgets;
+            content(ui);
+        });
+    });
 }
 
 /// A heading and what belongs to it, with a line above; folded away by a click on the heading.
