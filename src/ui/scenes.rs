@@ -6,7 +6,7 @@ use crate::app::{Command, Frame};
 use crate::scene::Shipped;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
-use egui::{Key, Label, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Align, Key, Label, RichText, ScrollArea, TextEdit, Ui};
 
 /// The sections "Scenes" and "Save as…".
 pub fn show(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
@@ -75,7 +75,7 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
             let response = entry(ui, scene, here);
             if here && state.listed != Some(frame.scene.opened) {
                 state.listed = Some(frame.scene.opened);
-                response.scroll_to_me(None);
+                response.scroll_to_me(Some(Align::Center));
             }
             if response.clicked() {
                 commands.push(Command::Open(scene.name.to_owned()));
