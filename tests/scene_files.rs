@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use std::fs::File;
-use tautline::engine::{DVec2, Motion, Stepper};
+use tautline::engine::{Constraint, DVec2, Kind, Motion, Stepper};
 use tautline::scene::{
     self, BodyEntry, BodyFields, ConstraintEntry, Document, End, Generator, Place, SceneError, Settings, Setup, Truth,
     View, WallEntry,
@@ -255,6 +255,29 @@ fn a_captured_world_comes_back_with_the_same_bits() {
         assert_same_bits(&setup, &again);
         assert_eq!(scene::to_ron(&scene::capture(&again)), text, "{}", shipped.name);
     }
+}
+
+#[test]
+fn a_captured_world_keeps_the_names_of_its_bodies() {
+    let setup = parse(
+        "(version: 1,
+        bodies: [Particle(name: \"b1\"), Particle(position: (1, 0)), Disc(name: \"line_0\", position: (2, 0))],
+        generators: [Rope(name: \"line\", from: (0, 5), to: (1, 5), links: 1), Cloth(name: \"net\", columns: 2, rows: 2)],
+        constraints: [Rod(a: \"b1\", b: \"line.1\")])",
+    );
+    let mut world = setup.world.clone();
+    let unnamed = world.bodies().id[1];
+    world.add_constraint(&Constraint::to_world(Kind::Rod { length: 1.0 }, unnamed, DVec2::ZERO)).expect("a sound rod");
+    let document = scene::capture(&Setup { world, ..setup });
+    let names: Vec<&str> = document
+        .bodies
+        .iter()
+        .map(|entry| match entry {
+            BodyEntry::Particle(fields) | BodyEntry::Disc(fields) => fields.name.as_deref().unwrap_or("none"),
+        })
+        .collect();
+    assert_eq!(names, ["b1", "b1_", "line_0", "line_0_", "line_1", "net_0_0", "net_1_0", "net_0_1", "net_1_1"]);
+    document.build().expect("names that are used once");
 }
 
 fn assert_same_bits(one: &Setup, two: &Setup) {
