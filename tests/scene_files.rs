@@ -142,8 +142,13 @@ fn assert_refused(path: &str, phrase: &str) {
 
 #[test]
 #[cfg(unix)]
-fn a_device_without_end_is_refused_at_the_limit() {
-    assert_refused("/dev/zero", "more than 16 MB");
+fn a_device_or_a_pipe_is_refused_without_waiting_for_it() {
+    assert_refused("/dev/zero", "a pipe or a device");
+    let folder = tempfile::tempdir().expect("a folder");
+    let pipe = folder.path().join("pipe.ron");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs");
+    assert!(made.success());
+    assert_refused(&pipe.display().to_string(), "a pipe or a device");
 }
 
 #[test]

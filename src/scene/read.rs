@@ -78,15 +78,20 @@ pub fn read_file(path: &Path) -> Result<String, SceneError> {
 
 fn read_bytes(path: &Path, name: &str) -> Result<Vec<u8>, SceneError> {
     let unreadable = |error: std::io::Error| SceneError::file(name, unreadable(&error));
-    let file = File::open(path).map_err(unreadable)?;
-    let about = file.metadata().map_err(unreadable)?;
+    // Before it is opened: a pipe that nobody writes to would be waited for without end.
+    let about = std::fs::metadata(path).map_err(unreadable)?;
     if about.is_dir() {
         let problem = Problem::new("a folder", "a scene file", "Name a file in it, for example one that ends in .ron.");
         return Err(SceneError::file(name, problem));
     }
+    if !about.is_file() {
+        let problem = Problem::new("a pipe or a device", "a scene file", "Write the scene to a file and name that.");
+        return Err(SceneError::file(name, problem));
+    }
     let mut bytes = Vec::new();
-    // A device or a pipe has no length: one byte past the limit is enough to know.
+    // One byte past the limit is enough to know of a file that grows.
     if about.len() <= LARGEST_FILE {
+        let file = File::open(path).map_err(unreadable)?;
         file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     }
     if about.len().max(bytes.len() as u64) > LARGEST_FILE {

@@ -9,5 +9,6 @@ mod impacts;
 mod lab;
 mod oscillation;
 mod pendulum;
+mod seams;
 mod stacking;
 mod tunnelling;

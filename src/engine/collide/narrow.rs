@@ -15,6 +15,8 @@ use glam::DVec2;
 
 /// Relative motion in a substep, as a part of the smaller radius, from which on the path is followed.
 const FAST: f64 = 0.25;
+/// A wall goes on in another one where that is no farther than this part of the radius of the body that touches there.
+const JOINED: f64 = 1e-6;
 
 /// Fills `contacts` with the contacts of this substep: bodies with bodies, then bodies with walls, each ascending by
 /// (a, b). Returns the number of pairs looked at. Forces of contacts that `old` already had are carried over.
@@ -34,8 +36,9 @@ pub(crate) fn find_contacts(
         contacts.extend(narrow.discs(*a, *b));
     }
     let of_bodies = contacts.len();
-    for (a, wall) in broad.walls.iter().filter(|(a, _)| slow(a)) {
-        contacts.extend(narrow.wall(*a, *wall));
+    for near in broad.walls.chunk_by(|one, next| one.0 == next.0).filter(|near| slow(&near[0].0)) {
+        let walls = near.iter().map(|(_, wall)| *wall);
+        contacts.extend(near.iter().filter_map(|(a, wall)| narrow.wall(*a, *wall, walls.clone())));
     }
     let mut looked_at = broad.pairs.len() + broad.walls.len();
     for fast in &broad.fast {
@@ -72,7 +75,8 @@ impl Narrow<'_> {
         broad.near(from.min(from + path), from.max(from + path), reach, &mut try_with);
         broad.fast.iter().copied().filter(|other| *other > fast).for_each(try_with);
         if may_touch_walls(self.world, fast) {
-            (0..self.world.walls.len() as u32).for_each(|wall| contacts.extend(self.wall(fast, wall)));
+            let walls = 0..self.world.walls.len() as u32;
+            contacts.extend(walls.clone().filter_map(|wall| self.wall(fast, wall, walls.clone())));
         }
         looked_at
     }
@@ -87,40 +91,64 @@ impl Narrow<'_> {
         let normal = if distance > 0.0 { offset / distance } else { DVec2::Y };
         let smaller = radius_a.min(radius_b);
         let here = (normal, distance - radius_a - radius_b);
-        let (normal, gap) = judge(here, path, smaller, || disc_hits_disc(offset, path, radius_a + radius_b))?;
+        let Meeting { normal, gap, .. } =
+            judge(here, path, smaller, || disc_hits_disc(offset, path, radius_a + radius_b))?;
         let point = self.state.position[j] + normal * (radius_b + 0.5 * gap);
         Some(contact(a, Touching::Body(b), point, normal, gap))
     }
 
-    fn wall(&self, a: u32, wall: u32) -> Option<Contact> {
+    /// The contact of a body with a wall, if it is not one with a seam between walls; `near` are those it may be joined to.
+    fn wall(&self, a: u32, wall: u32, near: impl Iterator<Item = u32>) -> Option<Contact> {
         let i = a as usize;
         let (position, radius) = (self.state.position[i], self.world.bodies.radius[i]);
         let path = self.h * self.state.velocity[i];
         let shape = &self.world.walls[wall as usize].shape;
         let (distance, normal) = shape.distance(position);
-        let (normal, gap) =
+        let Meeting { normal, gap, fraction } =
             judge((normal, distance - radius), path, radius, || disc_hits_wall(shape, position, path, radius))?;
+        if self.meets_seam(wall, near, position + fraction * path, radius) {
+            return None;
+        }
         Some(contact(a, Touching::Wall(wall), position - normal * (radius + 0.5 * gap), normal, gap))
+    }
+
+    /// Whether the disc at `centre` comes to `wall` only where another wall goes on that is nearer: the seams of a floor made
+    /// of pieces would else hold up what slides over them.
+    fn meets_seam(&self, wall: u32, near: impl Iterator<Item = u32>, centre: DVec2, radius: f64) -> bool {
+        let shape = |wall: u32| &self.world.walls[wall as usize].shape;
+        let (distance, normal) = shape(wall).distance(centre);
+        let foot = centre - distance * normal;
+        near.filter(|other| *other != wall)
+            .any(|other| shape(other).distance(foot).0 <= JOINED * radius && shape(other).distance(centre).0 < distance)
     }
 }
 
-/// Normal and gap of a pair, if it touches, nearly touches, or meets along `path` (the motion of the first against the second).
+/// Where two shapes touch, nearly touch, or meet.
+struct Meeting {
+    normal: DVec2,
+    /// [m]
+    gap: f64,
+    /// Part of the path after which this is so.
+    fraction: f64,
+}
+
+/// How a pair touches, nearly touches, or meets along `path` (the motion of the first against the second).
 fn judge(
     (normal, gap): (DVec2, f64),
     path: DVec2,
     smaller_radius: f64,
     first_hit: impl Fn() -> Option<(DVec2, f64)>,
-) -> Option<(DVec2, f64)> {
+) -> Option<Meeting> {
     let margin = MARGIN * smaller_radius;
     let fast = path.length_squared() > (FAST * smaller_radius) * (FAST * smaller_radius);
     if fast
         && gap > 0.0
         && let Some((normal, fraction)) = first_hit()
     {
-        return Some((normal, (-path.dot(normal) * fraction).max(0.0)));
+        return Some(Meeting { normal, gap: (-path.dot(normal) * fraction).max(0.0), fraction });
     }
     let closing = if fast { 0.0 } else { -path.dot(normal) };
-    (gap < margin + closing.max(0.0)).then_some((normal, gap))
+    (gap < margin + closing.max(0.0)).then_some(Meeting { normal, gap, fraction: 0.0 })
 }
 
 fn contact(a: u32, b: Touching, point: DVec2, normal: DVec2, gap: f64) -> Contact {
