@@ -10,6 +10,7 @@ pub mod constraint;
 pub mod error;
 pub mod id;
 mod integrate;
+pub mod linalg;
 pub mod method;
 pub mod plan;
 pub mod report;
