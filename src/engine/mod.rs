@@ -10,10 +10,7 @@ pub mod constraint;
 pub mod error;
 pub mod id;
 mod integrate;
-<<<<<<< Updated upstream
-=======
 mod island;
->>>>>>> Stashed changes
 pub mod linalg;
 pub mod method;
 pub mod plan;

@@ -19,7 +19,7 @@ const FORCE_LIMIT: f64 = 1.0;
 /// A damper is integrated as a force while h·c/m stays below this; explicit methods lose stability at 2.
 const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
-const LOCAL: f64 = 1e-3;
+const LOCAL: f64 = 0.03;
 
 /// The decisions for one world under one method.
 #[derive(Debug, Default)]
