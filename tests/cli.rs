@@ -54,9 +54,14 @@ const MEASURES: &str = "time,kinetic,potential,elastic,momentum_x,momentum_y,ang
 
 #[test]
 fn every_command_explains_itself() {
-    for arguments in
-        [&["--help"][..], &["run", "--help"], &["check", "--help"], &["shot", "--help"], &["open", "--help"]]
-    {
+    for arguments in [
+        &["--help"][..],
+        &["truth", "--help"],
+        &["run", "--help"],
+        &["check", "--help"],
+        &["shot", "--help"],
+        &["open", "--help"],
+    ] {
         assert!(prints(arguments).contains("Usage: tautline"), "{arguments:?}");
     }
     assert!(prints(&["--version"]).starts_with("tautline "));
@@ -87,8 +92,15 @@ fn what_is_not_understood_ends_with_two_and_a_hint() {
 #[test]
 fn scenes_are_listed_by_name_and_title() {
     let list = prints(&["scenes"]);
-    assert_eq!(list.lines().count(), tautline::scene::shipped().len());
-    assert!(list.lines().next().is_some_and(|line| line.starts_with("bridge ") && line.ends_with("Rope bridge")));
+    let [sandbox, truth] = [tautline::scene::shipped(), tautline::scene::truth_scenes()];
+    assert_eq!(list.lines().count(), 1 + sandbox.len() + 1 + truth.len());
+    let lines: Vec<&str> = list.lines().collect();
+    assert_eq!((lines[0], lines[sandbox.len() + 1]), ("Sandbox:", "Truth:"));
+    assert!(lines[1].starts_with("  bridge ") && lines[1].ends_with("Rope bridge"));
+    assert!(
+        lines[sandbox.len() + 2].starts_with("  truth/pendulum ")
+            && lines[sandbox.len() + 2].ends_with("Exact pendulum")
+    );
 }
 
 #[test]
@@ -247,4 +259,30 @@ fn a_build_without_a_window_says_so() {
     fails(&["open", "rope"], 1, "this build has no window");
     fails(&["shot", "rope", &picture], 1, "this build has no window");
     assert!(!Path::new(&picture).exists());
+}
+
+#[test]
+fn truth_is_computed_compared_and_written() {
+    let folder = folder();
+    let said = prints(&["truth", "truth/pendulum", "--write", &folder.path().display().to_string()]);
+    assert!(said.starts_with("truth/pendulum: agreement ") && said.contains("stored one differs by 0.0e0"), "{said}");
+    let written = std::fs::read(folder.path().join("pendulum.truth")).expect("the file that was asked for");
+    let written = tautline::truth::from_bytes(&written).expect("a trajectory");
+    assert_eq!(Some(written.positions), tautline::truth::stored("truth/pendulum").map(|stored| stored.positions));
+    let own = path_in(&folder, "own.ron");
+    std::fs::write(&own, "(version: 1, truth: (seconds: 0.1, length: 1), bodies: [Particle()])").expect("a scene file");
+    assert!(prints(&["truth", &own]).contains("not stored, 7 samples of 1 bodies"));
+}
+
+#[test]
+fn what_has_no_truth_is_refused_with_advice() {
+    let folder = folder();
+    fails(&["truth"], 2, "--all");
+    fails(&["truth", "rope", "--all"], 2, "cannot be used with");
+    fails(&["truth", "rope"], 1, "add `truth: (seconds: 10, length: 1)`");
+    fails(&["truth", "truth/rop"], 1, "Did you mean `truth/rope`?");
+    fails(&["truth", "truth/pendulum", "--write", &path_in(&folder, "missing")], 1, "cannot write");
+    let disc = path_in(&folder, "disc.ron");
+    std::fs::write(&disc, "(version: 1, truth: (seconds: 1, length: 1), bodies: [Disc()])").expect("a scene file");
+    fails(&["truth", &disc], 1, "a disc that turns");
 }

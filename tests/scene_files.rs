@@ -4,13 +4,13 @@ use proptest::prelude::*;
 use std::fs::File;
 use tautline::engine::{DVec2, Motion, Stepper};
 use tautline::scene::{
-    self, BodyEntry, BodyFields, ConstraintEntry, Document, End, Generator, Place, SceneError, Settings, Setup, View,
-    WallEntry,
+    self, BodyEntry, BodyFields, ConstraintEntry, Document, End, Generator, Place, SceneError, Settings, Setup, Truth,
+    View, WallEntry,
 };
 
 #[test]
 fn every_shipped_scene_builds_and_explains_itself() {
-    for shipped in scene::shipped() {
+    for shipped in every_scene() {
         let setup = open(shipped.name);
         assert_eq!(setup.title, shipped.title, "the list and the file of {} agree", shipped.name);
         assert!(setup.about.ends_with('.'), "{} says what to try", shipped.name);
@@ -18,6 +18,20 @@ fn every_shipped_scene_builds_and_explains_itself() {
         assert!(!setup.world.bodies().is_empty());
     }
     assert_eq!(scene::shipped()[0].name, "bridge", "the scene that opens by itself comes first");
+}
+
+/// The scenes of the sandbox and those with a truth.
+fn every_scene() -> impl Iterator<Item = &'static scene::Shipped> {
+    scene::shipped().iter().chain(scene::truth_scenes())
+}
+
+#[test]
+fn names_of_shipped_scenes_differ_and_only_truth_scenes_say_what_a_truth_is_compared_over() {
+    let mut names: Vec<&str> = every_scene().map(|scene| scene.name).collect();
+    names.sort_unstable();
+    assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+    assert!(scene::shipped().iter().all(|scene| open(scene.name).truth.is_none()));
+    assert!(scene::truth_scenes().iter().all(|scene| open(scene.name).truth.is_some()));
 }
 
 /// File, line, column and a part of the message. One mistake a file.
@@ -65,10 +79,13 @@ const BROKEN: &[(&str, usize, usize, &str)] = &[
     ("point_without_brackets", 3, 29, "a point such as (1.0, 2.0)"),
     ("rod_without_length", 4, 19, "rod length 0.0"),
     ("same_ends", 4, 37, "two different ends"),
+    ("short_chord", 3, 50, "found chord 0.5"),
     ("short_line", 3, 26, "at least two points"),
     ("text_for_number", 4, 38, "found the text \"heavy\""),
+    ("timeless_truth", 3, 22, "between 1/60 and 3600 s"),
     ("trailing", 2, 1, "`and` after the end"),
     ("unclosed", 5, 1, "Close every bracket"),
+    ("truth_without_length", 3, 25, "Add `length: …`"),
     ("unknown_attribute", 1, 16, "scenes need none"),
     ("unknown_field", 4, 32, "Did you mean `mass`?"),
     ("unknown_integrator", 3, 28, "Did you mean `VelocityVerlet`?"),
@@ -192,6 +209,18 @@ fn constraints_refer_to_nodes_by_name() {
 }
 
 #[test]
+fn rows_of_a_net_with_a_chord_lie_on_a_circle() {
+    let world = parse("(version: 1, generators: [Net(columns: 8, rows: 2, spacing: 0.1, chord: 0.6)])").world;
+    let row = &world.bodies().position[..8];
+    assert_eq!((row[0], row[7].y), (DVec2::ZERO, 0.0));
+    // Coordinates below a metre: an ulp or two of 1e-16 each.
+    assert!((row[7].x - 0.6).abs() < 1e-15);
+    row.windows(2).for_each(|pair| assert!(((pair[1] - pair[0]).length() - 0.1).abs() < 1e-15));
+    let turn = |k: usize| (row[k + 1] - row[k]).angle_to(row[k + 2] - row[k + 1]);
+    (0..6).for_each(|k| assert!(turn(k) > 0.1 && (turn(k) - turn(0)).abs() < 1e-13, "hangs down, bends evenly"));
+}
+
+#[test]
 fn pins_of_a_grid_are_where_they_are_asked_for() {
     let pinned = |pins: &str| {
         let setup = parse(&format!("(version: 1, generators: [Net(columns: 5, rows: 3, pins: {pins})])"));
@@ -207,7 +236,7 @@ fn pins_of_a_grid_are_where_they_are_asked_for() {
 
 #[test]
 fn a_document_comes_back_from_its_text_unchanged() {
-    for shipped in scene::shipped() {
+    for shipped in every_scene() {
         let document = Document::from_text(shipped.name, shipped.text).unwrap_or_else(|error| panic!("{error}"));
         let again = Document::from_text(shipped.name, &scene::to_ron(&document));
         assert_eq!(Ok(document), again, "{}", shipped.name);
@@ -216,7 +245,7 @@ fn a_document_comes_back_from_its_text_unchanged() {
 
 #[test]
 fn a_captured_world_comes_back_with_the_same_bits() {
-    for shipped in scene::shipped() {
+    for shipped in every_scene() {
         let mut setup = open(shipped.name);
         let mut stepper = Stepper::new(setup.method).expect("a sound method");
         for _ in 0..20 {
@@ -246,7 +275,7 @@ fn assert_same_bits(one: &Setup, two: &Setup) {
     assert_eq!(a.walls(), b.walls());
     assert_eq!((&a.bodies().motion, &a.bodies().group), (&b.bodies().motion, &b.bodies().group));
     assert_eq!((a.gravity(), a.drag(), a.tuning()), (b.gravity(), b.drag(), b.tuning()));
-    assert_eq!((one.method, one.view, &one.about), (two.method, two.view, &two.about));
+    assert_eq!((one.method, one.view, one.truth, &one.about), (two.method, two.view, two.truth, &two.about));
 }
 
 #[test]
@@ -371,6 +400,7 @@ fn document() -> impl Strategy<Value = Document> {
         Document {
             title: "Drawn at random \"\\".to_owned(),
             view: Some(View { centre: gravity, height }),
+            truth: Some(Truth { seconds: hz, length: height }),
             settings: Settings { gravity, hz, ..Settings::default() },
             bodies,
             generators,

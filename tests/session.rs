@@ -19,7 +19,7 @@ fn v(x: f64, y: f64) -> DVec2 {
 
 fn setup(world: World) -> Setup {
     let (title, about) = ("Test".into(), String::new());
-    Setup { name: "test".into(), title, about, world, method: Method::default(), view: None }
+    Setup { name: "test".into(), title, about, world, method: Method::default(), view: None, truth: None }
 }
 
 fn start(world: World) -> Session {

@@ -332,8 +332,15 @@ mod tests {
         let mut world = World::new();
         world.add_body(&Body::default()).expect("a sound body");
         let about = String::new();
-        let setup =
-            Setup { name: "test".into(), title: about.clone(), about, world, method: Method::default(), view: None };
+        let setup = Setup {
+            name: "test".into(),
+            title: about.clone(),
+            about,
+            world,
+            method: Method::default(),
+            view: None,
+            truth: None,
+        };
         let mut simulation = Simulation::new(setup);
         simulation.step();
         let shown = simulation.publish(1, 1.0);

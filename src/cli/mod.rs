@@ -5,6 +5,7 @@ mod desktop;
 mod numbers;
 pub mod run;
 mod scenes;
+mod truth;
 
 use clap::{Parser, Subcommand};
 use std::io::ErrorKind;
@@ -30,9 +31,10 @@ pub enum Command {
         scene: String,
     },
     Run(run::RunArguments),
-    /// Lists the shipped scenes.
+    /// Lists the shipped scenes: those of the sandbox, and those whose exact motion is known.
     Scenes,
     Check(check::CheckArguments),
+    Truth(truth::TruthArguments),
     Shot(ShotArguments),
 }
 
@@ -65,6 +67,7 @@ pub fn execute(arguments: Arguments) -> anyhow::Result<ExitCode> {
         Some(Command::Run(arguments)) => run::execute(&arguments)?,
         Some(Command::Scenes) => scenes::execute()?,
         Some(Command::Check(arguments)) => return check::execute(&arguments),
+        Some(Command::Truth(arguments)) => truth::execute(&arguments)?,
         Some(Command::Shot(arguments)) => desktop::shot(&arguments)?,
     }
     Ok(ExitCode::SUCCESS)

@@ -1,4 +1,9 @@
-//! Measures of a world: energy by kind, momentum, how far constraints are violated and surfaces overlap.
+//! Measures of a world: energy by kind, momentum, how far constraints are violated and surfaces overlap,
+//! and of a motion: how far it is from the truth.
+
+mod error;
+
+pub use error::error_against;
 
 use crate::engine::constraint::Constraints;
 use crate::engine::{DVec2, Kind, World};

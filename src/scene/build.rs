@@ -1,7 +1,7 @@
 //! From a document to a world that is ready to step.
 
 use super::Setup;
-use super::document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, WallEntry};
+use super::document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, Truth, WallEntry};
 use super::error::{Fault, Problem, SceneError};
 use super::names::Names;
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, Shape, Spin, Wall, World};
@@ -44,6 +44,7 @@ impl Document {
             world,
             method: self.settings.method(),
             view: self.checked_view()?,
+            truth: self.checked_truth()?,
         })
     }
 
@@ -73,6 +74,18 @@ impl Document {
             return Err(in_view(Fault::value("height", view.height, "a height between 1e-6 and 1e9 m")));
         }
         Ok(Some((view.centre, view.height)))
+    }
+
+    fn checked_truth(&self) -> Result<Option<Truth>, Fault> {
+        let Some(truth) = self.truth else { return Ok(None) };
+        let in_truth = |fault: Fault| fault.within("truth");
+        if !(truth.seconds >= 1.0 / 60.0 && truth.seconds <= 3600.0) {
+            return Err(in_truth(Fault::value("seconds", truth.seconds, "a time between 1/60 and 3600 s")));
+        }
+        if !(truth.length >= 1e-9 && truth.length <= 1e9) {
+            return Err(in_truth(Fault::value("length", truth.length, "a length between 1e-9 and 1e9 m")));
+        }
+        Ok(self.truth)
     }
 }
 

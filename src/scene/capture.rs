@@ -18,6 +18,7 @@ pub fn capture(setup: &Setup) -> Document {
         title: setup.title.clone(),
         about: setup.about.clone(),
         view: setup.view.map(|(centre, height)| View { centre, height }),
+        truth: setup.truth,
         settings: Settings::new(world.gravity(), world.drag(), world.tuning(), &setup.method),
         bodies: world.bodies().iter().enumerate().map(named).collect(),
         walls: world.walls().iter().map(wall_entry).collect(),

@@ -23,6 +23,9 @@ pub struct Document {
     /// What to show at first; everything if not given.
     #[serde(default, skip_serializing_if = "is_default")]
     pub view: Option<View>,
+    /// What its exact motion is compared over; only in scenes that have one: particles, rods and springs that never touch.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub truth: Option<Truth>,
     #[serde(default, skip_serializing_if = "is_default")]
     pub settings: Settings,
     #[serde(default, skip_serializing_if = "is_default")]
@@ -43,6 +46,7 @@ impl Default for Document {
             title: String::new(),
             about: String::new(),
             view: None,
+            truth: None,
             settings: Settings::default(),
             bodies: Vec::new(),
             walls: Vec::new(),
@@ -60,6 +64,16 @@ pub struct View {
     pub centre: DVec2,
     /// Its height [m]; the width follows from the window.
     pub height: f64,
+}
+
+/// What a scene's exact motion is compared over: `truth: (seconds: 10, length: 1)`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Truth {
+    /// Simulated time from the start [s].
+    pub seconds: f64,
+    /// By which distances from the truth are divided [m].
+    pub length: f64,
 }
 
 /// The surroundings, and how the world is stepped. The fields from `hz` on are those of [`Method`].

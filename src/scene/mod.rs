@@ -18,12 +18,12 @@ mod save;
 mod shipped;
 
 pub use capture::capture;
-pub use document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, View, WallEntry};
+pub use document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, Truth, View, WallEntry};
 pub use error::{Place, SceneError};
 pub use generator::Generator;
 pub use read::{LARGEST_FILE, open, parse, read_file};
 pub use save::{save, to_ron};
-pub use shipped::{Shipped, shipped};
+pub use shipped::{Shipped, find_shipped, shipped, truth_scenes};
 
 use crate::engine::{DVec2, Method, World};
 
@@ -38,4 +38,6 @@ pub struct Setup {
     pub method: Method,
     /// Rectangle to show: centre and height [m].
     pub view: Option<(DVec2, f64)>,
+    /// What its exact motion is compared over, if it has one.
+    pub truth: Option<Truth>,
 }

@@ -4,7 +4,7 @@ use super::document::{Document, VERSION};
 use super::error::{Fault, Place, Problem, SceneError};
 use super::locate::{line_and_column, locate};
 use super::nearest::nearest;
-use super::{Setup, shipped};
+use super::{Setup, find_shipped, shipped, truth_scenes};
 use ron::Options;
 use ron::error::SpannedError;
 use ron::extensions::Extensions;
@@ -21,7 +21,7 @@ const DEEPEST: usize = 32;
 
 /// Opens a shipped scene by its name or a scene file by its path, ready to run.
 pub fn open(name_or_path: &str) -> Result<Setup, SceneError> {
-    let text = match shipped().iter().find(|scene| scene.name == name_or_path) {
+    let text = match find_shipped(name_or_path) {
         Some(scene) => scene.text.to_owned(),
         None => read_file(Path::new(name_or_path)).map_err(|error| suggest_shipped(error, name_or_path))?,
     };
@@ -110,7 +110,7 @@ fn unreadable(error: &std::io::Error) -> Problem {
 
 /// Names the shipped scene that was probably meant, if the file does not exist.
 fn suggest_shipped(mut error: SceneError, name: &str) -> SceneError {
-    if let Some(known) = nearest(name, shipped().iter().map(|scene| scene.name))
+    if let Some(known) = nearest(name, shipped().iter().chain(truth_scenes()).map(|scene| scene.name))
         && matches!(error.place, Place::File(_))
         && !Path::new(name).exists()
     {

@@ -17,7 +17,7 @@ macro_rules! shipped {
     };
 }
 
-/// All shipped scenes, in the order in which they are listed; the first is the one that opens by itself.
+/// The scenes of the sandbox, in the order in which they are listed; the first is the one that opens by itself.
 pub fn shipped() -> &'static [Shipped] {
     shipped! {
         "bridge": "Rope bridge",
@@ -36,4 +36,24 @@ pub fn shipped() -> &'static [Shipped] {
         "bullet": "Bullet",
         "joint_grid": "Joint grid",
     }
+}
+
+/// The scenes whose exact motion is stored in the program ([`crate::truth::stored`]): for comparing methods.
+pub fn truth_scenes() -> &'static [Shipped] {
+    shipped! {
+        "truth/pendulum": "Exact pendulum",
+        "truth/double_pendulum": "Exact double pendulum",
+        "truth/rope": "Exact rope",
+        "truth/heavy_rope": "Exact heavy rope",
+        "truth/bridge": "Exact bridge",
+        "truth/cloth": "Exact cloth",
+        "truth/stiff_chain": "Exact stiff chain",
+        "truth/stiff_chain_1e4": "Exact stiff chain, 10000 to 1",
+        "truth/rigid_net": "Exact rigid net",
+    }
+}
+
+/// The scene of that name, of the sandbox or with a truth.
+pub fn find_shipped(name: &str) -> Option<&'static Shipped> {
+    shipped().iter().chain(truth_scenes()).find(|scene| scene.name == name)
 }

@@ -69,7 +69,7 @@ impl Generate for Cloth {
 
     fn build(&self, world: &mut World) -> Result<(), Fault> {
         let Cloth { corner, columns, rows, spacing, pins, stiffness, damping, .. } = *self;
-        let grid = Grid { corner, columns, rows, spacing, pins };
+        let grid = Grid { corner, columns, rows, spacing, chord: None, pins };
         let group = fresh_group(world);
         let node = Body { mass: self.mass, radius: self.radius, collides: self.collides, group, ..Body::default() };
         let nodes = grid.add_nodes(world, &node)?;

@@ -38,6 +38,8 @@ pub(super) struct Grid {
     pub columns: u32,
     pub rows: u32,
     pub spacing: f64,
+    /// Distance between the ends of a row [m]; a row that is longer hangs in a circular arc.
+    pub chord: Option<f64>,
     pub pins: Pins,
 }
 
@@ -45,15 +47,32 @@ impl Grid {
     /// Adds the nodes, row by row from the top, each like `node`.
     pub(super) fn add_nodes(&self, world: &mut World, node: &Body) -> Result<Vec<Id>, Fault> {
         let mut ids = Vec::new();
+        let along_row = self.row();
         for row in 0..self.rows {
             for column in 0..self.columns {
                 let pinned = self.pins.holds(column, row, self.columns);
-                let offset = DVec2::new(f64::from(column), -f64::from(row)) * self.spacing;
+                let offset = along_row[column as usize] - DVec2::new(0.0, f64::from(row) * self.spacing);
                 let motion = if pinned { Motion::Static } else { Motion::Dynamic };
                 ids.push(world.add_body(&Body { motion, position: self.corner + offset, ..*node })?);
             }
         }
         Ok(ids)
+    }
+
+    /// The nodes of a row, from its first one [m].
+    fn row(&self) -> Vec<DVec2> {
+        let straight = (0..self.columns).map(|i| DVec2::new(f64::from(i) * self.spacing, 0.0)).collect();
+        let links = f64::from(self.columns - 1);
+        let Some(chord) = self.chord.filter(|chord| *chord < links * self.spacing) else { return straight };
+        let half = half_angle(links, chord / self.spacing);
+        let radius = 0.5 * self.spacing / libm::sin(half);
+        let node = |i: u32| {
+            let angle = (2.0 * f64::from(i) - links) * half;
+            // cos(end) − cos(angle) as a product, which does not cancel
+            let [sum, difference] = [links * half + angle, links * half - angle].map(|turn| libm::sin(0.5 * turn));
+            DVec2::new(0.5 * chord + radius * libm::sin(angle), -2.0 * radius * sum * difference)
+        };
+        (0..self.columns).map(node).collect()
     }
 
     /// Joins every node to the one `right` columns and `down` rows further, where there is one.
@@ -74,5 +93,19 @@ impl Grid {
             }
         }
         Ok(())
+    }
+}
+
+/// Half the angle that a link takes on the circle, where `links` of them in a row span `span` of their lengths:
+/// sin(links · α) = span · sin α with 0 < α ≤ π / (2 · links). Bisection to the last bit; the left side falls behind the right.
+fn half_angle(links: f64, span: f64) -> f64 {
+    let [mut low, mut high] = [0.0, std::f64::consts::FRAC_PI_2 / links];
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return middle;
+        }
+        let long = libm::sin(links * middle) > span * libm::sin(middle);
+        *(if long { &mut low } else { &mut high }) = middle;
     }
 }

@@ -18,6 +18,9 @@ pub struct Net {
     pub rows: u32,
     /// Distance of neighbours [m].
     pub spacing: f64,
+    /// Distance between the two ends of a row [m], if the rows are to hang in circular arcs, at most half circles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chord: Option<f64>,
     pub link: Link,
     pub pins: Pins,
     /// Mass of a node [kg].
@@ -36,6 +39,7 @@ impl Default for Net {
             columns: 12,
             rows: 8,
             spacing: 0.25,
+            chord: None,
             link: Link::Rod,
             pins: Pins::Corners,
             mass: 0.05,
@@ -57,12 +61,16 @@ impl Generate for Net {
     fn check(&self) -> Result<(), Fault> {
         check_range("columns", f64::from(self.columns), [1.0, 1e6], "")?;
         check_range("rows", f64::from(self.rows), [1.0, 1e6], "")?;
-        check_range("spacing", self.spacing, [1e-9, 1e6], "m")
+        check_range("spacing", self.spacing, [1e-9, 1e6], "m")?;
+        let Some(chord) = self.chord else { return Ok(()) };
+        let links = f64::from(self.columns.max(2) - 1);
+        let half_circle = self.spacing / libm::sin(std::f64::consts::FRAC_PI_2 / links);
+        check_range("chord", chord, [half_circle, links * self.spacing], "m")
     }
 
     fn build(&self, world: &mut World) -> Result<(), Fault> {
-        let Net { corner, columns, rows, spacing, pins, .. } = *self;
-        let grid = Grid { corner, columns, rows, spacing, pins };
+        let Net { corner, columns, rows, spacing, chord, pins, .. } = *self;
+        let grid = Grid { corner, columns, rows, spacing, chord, pins };
         let group = fresh_group(world);
         let node = Body { mass: self.mass, radius: self.radius, collides: self.collides, group, ..Body::default() };
         let nodes = grid.add_nodes(world, &node)?;

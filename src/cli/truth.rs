@@ -1,0 +1,70 @@
+//! `tautline truth`: computes the exact motion of a scene and compares or writes it.
+
+use crate::measure::error_against;
+use crate::scene::{self, Setup};
+use crate::truth::{self, Trajectory};
+use anyhow::Context;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Computes the exact motion of a scene, and says how well it is known and how far the stored one is from it.
+///
+/// The scene must have an entry such as `truth: (seconds: 10, length: 1)`, and nothing but particles, rods and springs that
+/// do not touch. Agreement is the RMS distance of two runs of different tolerance, divided by the length. Takes from
+/// milliseconds to several minutes a scene in an optimised build.
+#[derive(Debug, clap::Args)]
+pub struct TruthArguments {
+    /// Name of a shipped scene such as truth/rope, or path of a scene file
+    #[arg(required_unless_present = "all", conflicts_with = "all")]
+    scene: Option<String>,
+    /// All shipped scenes that have a truth
+    #[arg(long)]
+    all: bool,
+    /// Write what was computed into this folder, a file NAME.truth for each scene; in the sources that is scenes/truth
+    #[arg(long, value_name = "FOLDER")]
+    write: Option<PathBuf>,
+}
+
+pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
+    let names: Vec<&str> = match &arguments.scene {
+        Some(scene) => vec![scene],
+        None => scene::truth_scenes().iter().map(|scene| scene.name).collect(),
+    };
+    for name in names {
+        let setup = scene::open(name)?;
+        let Some(span) = setup.truth else {
+            anyhow::bail!(
+                "{name} has no truth: add `truth: (seconds: 10, length: 1)` to the scene, or name truth/rope"
+            );
+        };
+        let started = Instant::now();
+        let found = truth::converge(&setup.world, span.seconds, span.length).with_context(|| name.to_owned())?;
+        say(&setup, &found, started.elapsed().as_secs_f64())?;
+        if let Some(folder) = &arguments.write {
+            write(folder, name, &found)?;
+        }
+    }
+    Ok(())
+}
+
+fn say(setup: &Setup, found: &Trajectory, seconds: f64) -> std::io::Result<()> {
+    let (samples, bodies) = (found.positions.len(), setup.world.bodies().len());
+    let stored = truth::stored(&setup.name)
+        .and_then(|stored| error_against(&stored.positions, &found.positions, found.length))
+        .map_or("not stored".to_owned(), |error| format!("stored one differs by {error:.1e}"));
+    let agreement = found.agreement;
+    let mut out = std::io::stdout().lock();
+    writeln!(
+        out,
+        "{}: agreement {agreement:.1e}, {stored}, {samples} samples of {bodies} bodies in {seconds:.1} s",
+        setup.name
+    )?;
+    out.flush()
+}
+
+fn write(folder: &Path, name: &str, found: &Trajectory) -> anyhow::Result<()> {
+    let stem = Path::new(name).file_stem().unwrap_or_default();
+    let path = folder.join(stem).with_extension("truth");
+    std::fs::write(&path, truth::to_bytes(found)).with_context(|| format!("cannot write {}", path.display()))
+}

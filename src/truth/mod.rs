@@ -1,0 +1,44 @@
+//! The truth: closed forms, and a reference solver that shares nothing with the engine's solvers but the data of a world.
+//!
+//! The reference integrates the index-1 equations of a scene of particles, rods and springs in double-double arithmetic
+//! (106 bits) by extrapolation, so that what is left of the error is far below what a double can show. Converged
+//! trajectories of the scenes under `scenes/truth/` are stored in the program: [`stored`].
+
+pub mod closed_form;
+mod double_double;
+mod extrapolation;
+mod factor;
+mod reference;
+mod store;
+mod system;
+
+pub use double_double::DoubleDouble;
+pub use reference::{Reference, SAMPLES_PER_SECOND, TOLERANCES, converge};
+pub use store::{StoreError, from_bytes, stored, to_bytes};
+
+use crate::engine::DVec2;
+
+/// A motion, sampled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory {
+    /// When the samples were taken, ascending from 0 [s].
+    pub times: Vec<f64>,
+    /// A sample: the centres of all bodies, in the order of the world [m].
+    pub positions: Vec<Vec<DVec2>>,
+    /// By which distances are divided to make them relative [m].
+    pub length: f64,
+    /// RMS distance of the two finest runs, divided by the length. Where it is below 1e-16 the rounding of the samples to
+    /// doubles is what is left.
+    pub agreement: f64,
+}
+
+/// Why there is no truth.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TruthError {
+    /// The scene holds what the reference has no equations for.
+    #[error("{what}: the reference solver knows particles, rods and springs that touch nothing")]
+    Unfit { what: String },
+    /// No step is small enough, as at a collision of two masses or where rods contradict each other.
+    #[error("at {time} s no step is small enough: the motion is singular there, or the rods contradict each other")]
+    Stalled { time: f64 },
+}

@@ -1,0 +1,5 @@
+//! The truth itself: closed forms, the reference solver, and what is stored of it. Figures are printed; `--nocapture` to read.
+
+mod closed_form;
+mod reference;
+mod stored;
