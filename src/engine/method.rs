@@ -29,6 +29,14 @@ impl Integrator {
         Integrator::Taylor,
     ];
 
+    /// Those that go through the substep loop, with a solver.
+    pub const SUBSTEPPED: [Integrator; 4] = [
+        Integrator::ExplicitEuler,
+        Integrator::SemiImplicitEuler,
+        Integrator::PositionVerlet,
+        Integrator::VelocityVerlet,
+    ];
+
     /// The name shown to a user.
     pub fn name(self) -> &'static str {
         match self {

@@ -211,6 +211,10 @@ impl Plan {
             parts.push("no constraints".to_string());
         }
         let mut sentence = parts.join(", ");
+        if !self.islands.is_empty() {
+            let islands = plural(self.islands.len(), "island");
+            let _ = write!(sentence, "; {islands} by Taylor series to {:.0e}, solved directly", method.accuracy);
+        }
         sentence.push_str(if self.spin { "; rotations" } else { "; particles only" });
         sentence.push_str(match (self.contacts, self.restitution) {
             (false, _) => ", nothing can touch: no broad phase",

@@ -55,19 +55,6 @@ impl Springs {
         factor
     }
 
-    /// Adds the forces [N] at the present positions and velocities.
-    pub fn add(&self, nodes: &Nodes, fx: &mut [f64], fy: &mut [f64]) {
-        for i in 0..self.len() {
-            let (a, b) = (self.a[i] as usize, self.b[i] as usize);
-            let (dx, dy) = (nodes.x[b] - nodes.x[a], nodes.y[b] - nodes.y[a]);
-            let factor = self.factor(i, (dx, dy), nodes);
-            fx[a] -= factor * dx;
-            fy[a] -= factor * dy;
-            fx[b] += factor * dx;
-            fy[b] += factor * dy;
-        }
-    }
-
     /// Writes the springs' forces, as multipliers (λ, 0) [N].
     pub fn store(&self, nodes: &Nodes, force: &mut [DVec2]) {
         for (i, constraint) in self.constraint.iter().enumerate() {
@@ -76,16 +63,6 @@ impl Springs {
             let length = (dx * dx + dy * dy).sqrt();
             force[*constraint as usize] = DVec2::new(self.factor(i, (dx, dy), nodes) * length, 0.0);
         }
-    }
-
-    /// Largest of 2 w Σ k over the nodes: a bound on the square of the fastest oscillation [1/s²] (Gershgorin).
-    pub fn fastest_square(&self, nodes: &Nodes) -> f64 {
-        let mut sum = vec![0.0; nodes.len()];
-        for i in 0..self.len() {
-            sum[self.a[i] as usize] += self.stiffness[i];
-            sum[self.b[i] as usize] += self.stiffness[i];
-        }
-        sum.iter().zip(&nodes.w).fold(0.0, |largest: f64, (sum, w)| largest.max(2.0 * w * sum))
     }
 }
 
