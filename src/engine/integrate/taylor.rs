@@ -294,7 +294,7 @@ impl Taylor {
         }
         let whole = ((k + 1) * (k + 2)) as f64;
         let half = order / 2;
-        let even = order % 2 == 0;
+        let even = order.is_multiple_of(2);
         let rhs = &mut self.lambda[k];
         for r in 0..n {
             let mut s = sum[r];
@@ -305,10 +305,8 @@ impl Taylor {
             let along = system.dx[r] * (self.fx[b] - self.fx[a]) + system.dy[r] * (self.fy[b] - self.fy[a]);
             rhs[r] = -whole * s - along;
         }
-        for r in rods.first_rope..n {
-            if !rods.held[r] {
-                rhs[r] = 0.0;
-            }
+        for (rhs, held) in rhs.iter_mut().zip(&rods.held).skip(rods.first_rope) {
+            *rhs = if *held { *rhs } else { 0.0 };
         }
         for ((a, b), rhs) in system.pins.a.iter().zip(&system.pins.b).zip(rhs[n..].chunks_exact_mut(2)) {
             let (a, b) = (*a as usize, *b as usize);
