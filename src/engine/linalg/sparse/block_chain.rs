@@ -166,7 +166,7 @@ fn backwards<const B: usize>(pivots: &Block<B>, carried: &[f64; B], x: &mut [f64
 }
 
 #[inline(always)]
-fn times<const B: usize>(block: &Block<B>, x: &[f64; B]) -> [f64; B] {
+pub(super) fn times<const B: usize>(block: &Block<B>, x: &[f64; B]) -> [f64; B] {
     std::array::from_fn(|row| (0..B).map(|column| block[row][column] * x[column]).sum())
 }
 

@@ -5,6 +5,8 @@
 //! order (`ordering`, `symbolic`, `numeric`). The pattern is analysed once per topology; afterwards factor and solve allocate
 //! nothing.
 //!
+//! [`block_tridiagonal`] is for matrices that are not symmetric or not definite, and stands alone.
+//!
 //! A shall be positive (semi)definite or quasi-definite; no rows are exchanged for stability. Redundant rows are dropped, see
 //! [`DROP`]. A zero on the diagonal that elimination has not filled when its turn comes is taken for a redundant row, so that
 //! a saddle-point matrix needs at least a tiny −α̃ there.
@@ -25,8 +27,10 @@
 //! ```
 
 pub mod block_chain;
+pub mod block_tridiagonal;
 mod blocks;
 pub mod chain;
+mod chordal;
 mod graph;
 mod numeric;
 mod ordering;

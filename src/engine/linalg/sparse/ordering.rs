@@ -1,4 +1,4 @@
-//! In which order to eliminate: minimum degree.
+//! In which order to eliminate: without fill where that is possible, else by minimum degree.
 //!
 //! Eliminating an unknown couples all its remaining neighbours with one another: entries of L where A has none, called fill.
 //! Whoever has the fewest neighbours left does least harm, so it goes first. The cliques that arise are not stored entry by
@@ -9,6 +9,7 @@
 //! Amestoy, Davis and Duff, "An approximate minimum degree ordering algorithm", SIAM J. Matrix Anal. Appl. 17 (1996); Davis,
 //! "Direct Methods for Sparse Linear Systems" (2006), section 7.1. Ties go to the lowest index: same order in every run.
 
+use super::chordal::orders_without_fill;
 use super::graph::Graph;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -18,7 +19,18 @@ use std::collections::BinaryHeap;
 const DENSE: f64 = 10.0;
 
 /// The nodes in order of elimination. `weights[k]` is the number of rows of block k.
-pub(super) fn minimum_degree(graph: &Graph, weights: &[u8]) -> Vec<u32> {
+pub(super) fn order(graph: &Graph, weights: &[u8]) -> Vec<u32> {
+    let mut order = orders_without_fill(graph);
+    let mut rest: Vec<u32> = weights.iter().map(|&rows| u32::from(rows)).collect();
+    order.iter().for_each(|&node| rest[node as usize] = 0);
+    if order.len() < rest.len() {
+        order.extend(minimum_degree(graph, rest));
+    }
+    order
+}
+
+/// Nodes of weight 0 are left out; none of the others has one as neighbour.
+fn minimum_degree(graph: &Graph, weights: Vec<u32>) -> Vec<u32> {
     let mut quotient = Quotient::new(graph, weights);
     while let Some(Reverse(key)) = quotient.queue.pop() {
         let (degree, node) = ((key >> 32) as u32, key as u32 as usize);
@@ -26,7 +38,8 @@ pub(super) fn minimum_degree(graph: &Graph, weights: &[u8]) -> Vec<u32> {
             quotient.eliminate(node);
         }
     }
-    quotient.finish(graph)
+    quotient.order.append(&mut quotient.later);
+    quotient.order
 }
 
 /// The quotient graph. A node is a variable while its weight is positive; after its elimination the same number names its element.
@@ -60,16 +73,19 @@ struct Quotient {
     queue: BinaryHeap<Reverse<u64>>,
     queued: Vec<u32>,
     order: Vec<u32>,
+    /// The dense nodes.
+    later: Vec<u32>,
 }
 
 const NONE: u32 = u32::MAX;
 
 impl Quotient {
-    fn new(graph: &Graph, weights: &[u8]) -> Self {
+    fn new(graph: &Graph, mut weight: Vec<u32>) -> Self {
         let n = graph.nodes();
         let dense = (DENSE * (n as f64).sqrt()).max(16.0) as usize;
-        let weight: Vec<u32> =
-            (0..n).map(|k| if graph.degree(k) > dense { 0 } else { u32::from(weights[k]) }).collect();
+        let later: Vec<u32> =
+            (0..n as u32).filter(|&k| weight[k as usize] > 0 && graph.degree(k as usize) > dense).collect();
+        later.iter().for_each(|&node| weight[node as usize] = 0);
         let mut quotient = Self {
             list: Vec::new(),
             start: Vec::with_capacity(n),
@@ -92,6 +108,7 @@ impl Quotient {
             queued: vec![NONE; n],
             order: Vec::with_capacity(n),
             weight,
+            later,
         };
         for node in 0..n {
             quotient.start.push(quotient.list.len() as u32);
@@ -290,13 +307,5 @@ impl Quotient {
             self.order.push(next);
             next = self.next_merged[next as usize];
         }
-    }
-
-    /// The order with the dense nodes at its end.
-    fn finish(mut self, graph: &Graph) -> Vec<u32> {
-        let mut placed = vec![false; graph.nodes()];
-        self.order.iter().for_each(|&node| placed[node as usize] = true);
-        self.order.extend((0..graph.nodes() as u32).filter(|&node| !placed[node as usize]));
-        self.order
     }
 }

@@ -11,7 +11,7 @@
 
 use super::blocks::{subtract_pair, subtract_symmetric};
 use super::graph::Graph;
-use super::ordering::minimum_degree;
+use super::ordering::order;
 
 /// Columns `first..first + width` of L. Below its dense triangle stand the rows `rows[rows_start..][..below]`. The panel holds
 /// `width + below` rows of `width` entries from `panel` on.
@@ -81,7 +81,7 @@ pub(super) struct Count {
 impl Symbolic {
     /// `values` is where the values of this part begin. Returns what each column of blocks holds.
     pub(super) fn analyse(&mut self, graph: &Graph, sizes: &[u8], values: usize) -> Vec<Count> {
-        let ordered = minimum_degree(graph, sizes);
+        let ordered = order(graph, sizes);
         let lower = LowerPattern::new(graph, &ordered);
         let postorder = postorder(&lower.elimination_tree());
         self.order.clear();
