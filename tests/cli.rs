@@ -86,6 +86,7 @@ fn what_is_not_understood_ends_with_two_and_a_hint() {
     fails(&["run", "rope", "--iterations", "-4"], 2, "iterations");
     fails(&["run", "rope", "--baumgarte", "2"], 2, "from 0 to 1");
     fails(&["shot", "rope", "a.png", "--size", "big"], 2, "1280x800");
+    fails(&["shot", "rope", "a.jpg"], 2, "such as picture.png");
     fails(&["shot", "rope", "a.png", "--theme", "pink"], 2, "dark");
 }
 

@@ -10,7 +10,7 @@ use tautline::engine::{
     Body, Constraint, DVec2, Grip, Id, Kind, Method, Motion, Spin, StepReport, Stepper, Wall, World,
 };
 use tautline::measure::Measures;
-use tautline::render::marks::{DiscMark, MarkKind};
+use tautline::render::marks::{DiscMark, Ends, MarkKind};
 use tautline::render::offscreen::{FORMAT, begin_scene, render};
 use tautline::render::{Colour, Extra, Gpu, Image, Picture, Renderer, Theme, ViewOptions, Viewport};
 
@@ -39,6 +39,7 @@ fn frame(world: World) -> Frame {
         undo: None,
         redo: None,
         plots: tautline::app::Plots::default(),
+        trace: tautline::app::Trace::default(),
         touched: std::sync::Arc::default(),
     }
 }
@@ -301,6 +302,44 @@ fn a_stretched_spring_keeps_its_windings() {
 }
 
 #[test]
+fn a_short_spring_is_still_a_coil() {
+    // From 8 points on; nearer ones are a dash.
+    let kinds = [7.0, 9.0, 14.0, 20.0, 40.0].map(|scale| {
+        let mut world = World::new();
+        let a = world.add_body(&Body::default()).unwrap();
+        let spring = Kind::Spring { rest: 0.9, stiffness: 1.0, damping: 0.0 };
+        world.add_constraint(&Constraint::to_world(spring, a, DVec2::X)).unwrap();
+        let mut picture = Picture::new();
+        picture.build(&frame(world), &camera(DVec2::ZERO, scale, [600, 400]), &bare(), 1.0);
+        picture.springs().first().map_or(0.0, |spring| spring.windings)
+    });
+    assert_eq!(kinds, [0.0, 2.0, 2.0, 4.0, 8.0]);
+}
+
+#[test]
+fn ranges_belong_to_a_scene_and_stay_while_it_is_paused() {
+    let mut world = disc_world(DVec2::ZERO, 0.5);
+    let id = world.bodies().id[0];
+    let mut at_speed = |speed: f64| {
+        world.set_body(id, &Body { velocity: DVec2::new(speed, 0.0), ..Body::default() }).unwrap();
+        world.clone()
+    };
+    let (fast, slow) = (frame(at_speed(8.0)), at_speed(1.0));
+    let mut picture = Picture::new();
+    let mut range = |frame: &Frame| {
+        picture.build(frame, &camera(DVec2::ZERO, 100.0, [600, 400]), &bare(), 1.0);
+        picture.speed_range()
+    };
+    assert_eq!(range(&fast), 10.0);
+    let later = |seconds| Instant::now() + std::time::Duration::from_secs(seconds);
+    for seconds in [1, 60, 120] {
+        assert_eq!(range(&Frame { world: slow.clone(), published: later(seconds), ..fast.clone() }), 10.0);
+    }
+    let info = SceneInfo { opened: 1, ..SceneInfo::default() };
+    assert_eq!(range(&Frame { world: slow, scene: Arc::new(info), ..fast }), 1.0);
+}
+
+#[test]
 fn a_spring_is_drawn_as_a_coil_of_that_many_windings() {
     let Some(gpu) = gpu() else { return };
     let mut world = World::new();
@@ -373,6 +412,31 @@ fn trails_follow_the_selected_bodies_and_start_anew_with_the_scene() {
     }
     frame.scene = Arc::new(SceneInfo { opened: 1, ..SceneInfo::default() });
     assert_eq!(lines(&frame), 0);
+}
+
+#[test]
+fn a_trail_goes_through_the_steps_between_two_pictures() {
+    let mut world = disc_world(DVec2::new(1.0, 0.0), 0.1);
+    let hanger = Constraint::to_world(Kind::Rod { length: 1.0 }, world.bodies().id[0], DVec2::ZERO);
+    world.add_constraint(&hanger).unwrap();
+    let mut frame = frame(world);
+    let mut stepper = Stepper::new(Method::default()).unwrap();
+    let options = ViewOptions { trails: true, tension: false, ..bare() };
+    let view = camera(DVec2::ZERO, 100.0, [600, 400]);
+    let mut picture = Picture::new();
+    picture.build(&frame, &view, &options, 1.0);
+    for _ in 0..30 {
+        stepper.step(&mut frame.world);
+        frame.trace.push(&frame.world);
+    }
+    picture.build(&frame, &view, &options, 1.0);
+    // One piece a step, but for the first, which is too short to be drawn, and the rod: the pendulum's arc, a metre from its
+    // pivot, and no chord across it.
+    assert_eq!(picture.lines().len(), 30);
+    let trail = picture.lines().iter().filter(|line| line.ends == Ends::Square as u32);
+    // Points on the canvas: 100 of them are a metre, of which the rod may be off by some thousandths.
+    let off = trail.map(|line| (line.start[0].hypot(line.start[1]) - 100.0).abs()).fold(0.0, f32::max);
+    assert!(off < 0.5, "{off} points beside the arc");
 }
 
 #[test]

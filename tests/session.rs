@@ -19,7 +19,8 @@ fn v(x: f64, y: f64) -> DVec2 {
 
 fn setup(world: World) -> Setup {
     let (title, about) = ("Test".into(), String::new());
-    Setup { name: "test".into(), title, about, world, method: Method::default(), view: None, truth: None }
+    let (name, method) = ("test".into(), Method::default());
+    Setup { name, title, about, world, method, names: Default::default(), view: None, truth: None }
 }
 
 fn start(world: World) -> Session {
@@ -136,6 +137,36 @@ fn undo_and_redo_restore_the_exact_state() {
     session.send(Command::Redo);
     let redone = wait_for(&session, "the cloth again", |f| f.redo.as_deref() == Some("Delete"));
     assert_eq!(redone.world, edited.world);
+}
+
+#[test]
+fn a_change_of_a_setting_is_undone_as_one_and_by_its_name() {
+    let mut world = World::new();
+    let ball = add(&mut world, v(0.1, 0.2));
+    let session = start(world);
+    pause(&session);
+    for y in [-9.0, -5.0, -1.0] {
+        session.send(Command::Gravity(v(0.0, y)));
+    }
+    let changed = wait_for(&session, "the last gravity", |f| f.world.gravity().y == -1.0);
+    assert_eq!(changed.undo.as_deref(), Some("Change gravity"));
+    // The energy follows at once: a kilogram at 0.2 m.
+    let potential = changed.measures.potential;
+    assert!((potential - 0.2).abs() < 1e-15, "{potential} J");
+    session.send(Command::Gravity(v(0.0, -1.0)));
+    session.send(Command::Method(Method { substeps: 3, ..Method::default() }));
+    session.send(Command::Edit(Edit::Delete(vec![ball])));
+    wait_for(&session, "the ball to go", |f| f.world.body(ball).is_err());
+    session.send(Command::Undo);
+    let undone = wait_for(&session, "the ball again", |f| f.world.body(ball).is_ok());
+    assert_eq!((undone.world.gravity().y, undone.method.substeps), (-1.0, 3), "undo takes back what it names only");
+    assert_eq!(undone.undo.as_deref(), Some("Change substeps"));
+    session.send(Command::Undo);
+    session.send(Command::Undo);
+    let undone = wait_for(&session, "everything undone", |f| f.undo.is_none());
+    assert_eq!((undone.world.gravity().y, undone.method), (-9.81, Method::default()));
+    session.send(Command::Redo);
+    wait_for(&session, "the last gravity again", |f| f.world.gravity().y == -1.0);
 }
 
 #[test]
@@ -393,6 +424,28 @@ fn picking_takes_the_smallest_exact_hit_else_the_nearest_within_reach() {
     assert_eq!(pick::within(&world, v(-0.5, -0.5), v(0.5, 0.5)), [large, small]);
 }
 
+#[test]
+fn a_rod_among_the_beads_that_hide_it_is_picked_by_its_line_and_the_beads_elsewhere() {
+    let mut world = World::new();
+    let bead = |x: f64| Body { position: v(x, 0.0), radius: 0.14, ..Body::default() };
+    let beads: Vec<Id> = (0..5).map(|i| world.add_body(&bead(0.2 * f64::from(i))).expect("valid")).collect();
+    let rods: Vec<Id> = beads.windows(2).map(|pair| rod(&mut world, 0.2, pair[0], pair[1])).collect();
+    let bob = world.add_body(&Body { position: v(0.0, -3.0), radius: 0.4, ..Body::default() }).expect("valid");
+    let hanger = Constraint::to_world(Kind::Rod { length: 2.0 }, bob, v(0.0, -1.0));
+    let hanger = world.add_constraint(&hanger).expect("valid");
+    // 1 m are 80 points: a rod is 3.2 points wide.
+    let camera = Camera { scale: 80.0, ..camera() };
+    let at = |x: f64, y: f64| pick::pick(&world, &camera, camera.to_canvas(v(x, y)));
+    assert_eq!((at(0.3, 0.0), at(0.3, 0.01)), (Some(rods[1]), Some(rods[1])));
+    assert_eq!((at(0.2, 0.0), at(0.4, 0.0)), (Some(beads[1]), Some(beads[2])));
+    assert_eq!(at(0.24, 0.08), Some(beads[1]));
+    // A lone rod is drawn below its bob, and cannot be hit there.
+    assert_eq!((at(0.0, -2.0), at(0.0, -2.7)), (Some(hanger), Some(bob)));
+    let mut hand = Hand { camera, ..Hand::with(Tool::Drag) };
+    hand.drag(&world, v(0.3, 0.0), v(0.3, 0.0));
+    assert_eq!(hand.tools.selection(), [rods[1]], "a click with the drag tool selects what lies on top");
+}
+
 /// Tools with their canvas, as a window would drive them.
 struct Hand {
     tools: Tools,
@@ -470,7 +523,7 @@ fn the_right_button_pans_and_the_wheel_zooms_to_the_cursor() {
 }
 
 #[test]
-fn the_join_tool_joins_bodies_and_points_and_refuses_two_points() {
+fn the_join_tool_joins_bodies_and_points_and_hangs_a_particle_between_two_points() {
     let mut world = World::new();
     let (a, b) = (add(&mut world, v(0.0, 0.0)), add(&mut world, v(2.0, 0.0)));
     let mut hand = Hand::with(Tool::Join(Join::Rod));
@@ -484,7 +537,16 @@ fn the_join_tool_joins_bodies_and_points_and_refuses_two_points() {
         [Command::Edit(Edit::Join(joined))] => assert!(matches!(joined.b, Anchor::World(_)), "{joined:?}"),
         other => panic!("{other:?}"),
     }
-    assert!(hand.drag(&world, v(-1.0, 1.0), v(-2.0, 1.0)).is_empty(), "both ends would be fixed");
+    let hang = match &hand.drag(&world, v(-1.0, 1.0), v(-2.0, 1.0))[..] {
+        [Command::Edit(hang @ Edit::Hang { .. })] => hang.clone(),
+        other => panic!("{other:?}"),
+    };
+    let before = world.bodies().len();
+    let mut hung = world.clone();
+    assert_eq!(change(&mut hung, hang).len(), 2, "the particle and its rod");
+    assert_eq!((hung.bodies().len(), hung.bodies().position[before]), (before + 1, v(-2.0, 1.0)));
+    assert_eq!((hung.ends(0), hung.constraints().kind[0]), ((v(-2.0, 1.0), v(-1.0, 1.0)), Kind::Rod { length: 1.0 }));
+    assert!(hand.drag(&world, v(-1.0, 1.0), v(-1.01, 1.0)).is_empty(), "a click between two points joins nothing");
     assert!(hand.drag(&world, v(0.0, 0.0), v(0.02, 0.0)).is_empty(), "both ends would be the same body");
 }
 
@@ -541,6 +603,11 @@ fn no_two_actions_share_a_shortcut_and_every_tool_is_in_the_table() {
         }
         assert!(entry.action.tooltip().ends_with(']'), "every action has a shortcut: {}", entry.name);
     }
+    let zoom_out = Action::ZoomOut.entry().shortcuts[0];
+    assert_eq!(
+        (zoom_out.to_string(), Action::Slower.entry().shortcuts[0].to_string()),
+        ("Ctrl-Minus".into(), "−".into())
+    );
     let joins = [Join::Rod, Join::Spring, Join::Rope].map(Tool::Join);
     let others = [Tool::Drag, Tool::Select, Tool::Cut, Tool::Wall];
     for tool in joins.into_iter().chain(others).chain(Spawn::ALL.map(Tool::Spawn)) {

@@ -43,7 +43,13 @@ impl Camera {
 
     /// Shows the rectangle from `min` to `max` whole, with a margin of a tenth.
     pub fn fit(&mut self, min: DVec2, max: DVec2) {
-        let extent = (max - min).max(DVec2::splat(1e-3)) * 1.2;
+        let (middle, half) = ((min + max) / 2.0, (max - min).max(DVec2::splat(1e-3)) * 0.6);
+        self.show(middle - half, middle + half);
+    }
+
+    /// Shows the rectangle from `min` to `max` as large as it fits.
+    pub fn show(&mut self, min: DVec2, max: DVec2) {
+        let extent = max - min;
         self.centre = (min + max) / 2.0;
         self.scale = (self.size.x / extent.x).min(self.size.y / extent.y).clamp(SCALE_RANGE[0], SCALE_RANGE[1]);
     }

@@ -68,6 +68,13 @@ pub enum Edit {
     SetWall(Id, Wall),
     /// Joins two bodies, or a body and a point.
     Join(Constraint),
+    /// Hangs a new particle of radius `size` [m] at `at` on a fixed point `from`.
+    Hang {
+        kind: Kind,
+        from: DVec2,
+        at: DVec2,
+        size: f64,
+    },
     AddWall(Wall),
 }
 
@@ -86,6 +93,7 @@ impl Edit {
             Edit::SetKind(id, kind) => format!("Change {} {id}", kind.name().to_lowercase()),
             Edit::SetWall(id, _) => format!("Change wall {id}"),
             Edit::Join(constraint) => format!("Add {}", constraint.kind.name().to_lowercase()),
+            Edit::Hang { kind, .. } => format!("Add {}", kind.name().to_lowercase()),
             Edit::AddWall(_) => "Add wall".into(),
         }
     }

@@ -31,6 +31,11 @@ pub fn apply(world: &mut World, edit: &Edit) -> Result<Vec<Id>, EditError> {
         Edit::SetKind(id, kind) => Ok(world.set_kind(*id, *kind).map(|()| vec![*id])?),
         Edit::SetWall(id, wall) => Ok(world.set_wall(*id, wall).map(|()| vec![*id])?),
         Edit::Join(constraint) => Ok(world.add_constraint(constraint).map(|id| vec![id])?),
+        Edit::Hang { kind, from, at, size } => {
+            let bob = world.add_body(&particle(*at, *size))?;
+            let link = world.add_constraint(&Constraint::to_world(*kind, bob, *from))?;
+            Ok(vec![bob, link])
+        }
         Edit::AddWall(wall) => Ok(world.add_wall(wall).map(|id| vec![id])?),
     }
 }
@@ -87,7 +92,8 @@ pub(crate) fn spring(rest: f64, mass: f64) -> Kind {
     Kind::Spring { rest, stiffness: mass * omega * omega, damping: 2.0 * SPRING_DAMPING_RATIO * mass * omega }
 }
 
-fn particle(position: DVec2, radius: f64) -> Body {
+/// A particle of radius `radius` [m] as it is spawned.
+pub(crate) fn particle(position: DVec2, radius: f64) -> Body {
     Body { position, radius, mass: DENSITY * std::f64::consts::PI * radius * radius, ..Body::default() }
 }
 

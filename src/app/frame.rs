@@ -1,6 +1,7 @@
 //! What the simulation thread publishes: one immutable picture of everything that the window shows.
 
 use super::plot_data::Plots;
+use super::trace::Trace;
 use crate::engine::{DVec2, Id, Method, StepReport, World};
 use crate::measure::Measures;
 use std::sync::Arc;
@@ -15,6 +16,8 @@ pub struct SceneInfo {
     pub about: String,
     /// Rectangle that the scene asks to show: centre and height [m].
     pub view: Option<(DVec2, f64)>,
+    /// Corners of the smallest box around everything at the start [m]; `None` if the scene is empty.
+    pub bounds: Option<(DVec2, DVec2)>,
     /// Counts openings and restarts, so that the window knows when to fit its view anew.
     pub opened: u64,
 }
@@ -44,6 +47,8 @@ pub struct Frame {
     pub measures: Measures,
     /// The last 20 s of measures and stage times, every step of them.
     pub plots: Plots,
+    /// Where the bodies were after each of the last steps.
+    pub trace: Trace,
     /// What the plan decided, in one sentence.
     pub plan: String,
     pub running: bool,

@@ -28,11 +28,27 @@ pub enum Action {
     Pin,
     SelectAll,
     Tool(Tool),
+    /// Shows or hides something.
+    Toggle(Shown),
+    /// Light or dark.
+    ToggleTheme,
     Palette,
     Help,
     FullScreen,
     Quit,
     Escape,
+}
+
+/// What the view can show or leave out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    Tension,
+    Speed,
+    Velocities,
+    Contacts,
+    Trails,
+    Grid,
+    Plots,
 }
 
 /// A key with the modifiers that must be held, and no others.
@@ -49,6 +65,9 @@ impl std::fmt::Display for Shortcut {
         let key = match self.key {
             "ArrowRight" => "→",
             "Escape" => "Esc",
+            // After a hyphen another one would not be seen.
+            "-" if self.ctrl || self.shift => "Minus",
+            "-" => "−",
             key => key,
         };
         write!(f, "{}{}{key}", if self.ctrl { "Ctrl-" } else { "" }, if self.shift { "Shift-" } else { "" })
@@ -71,6 +90,10 @@ const fn key(key: &'static str) -> Shortcut {
 
 const fn ctrl(key: &'static str) -> Shortcut {
     Shortcut { ctrl: true, shift: false, key }
+}
+
+const fn shift(key: &'static str) -> Shortcut {
+    Shortcut { ctrl: false, shift: true, key }
 }
 
 const fn entry(action: Action, shortcuts: &'static [Shortcut], name: &'static str, help: &'static str) -> Entry {
@@ -99,12 +122,7 @@ pub const ENTRIES: &[Entry] = &[
     entry(Action::FitSelection, &[key("F")], "Fit selection", "Shows what is selected, as large as it fits."),
     entry(Action::TogglePanels, &[key("Tab")], "Hide panels", "Hides the panels, or shows them again."),
     entry(Action::Undo, &[ctrl("Z")], "Undo", "Takes back the last edit, restart or opening."),
-    entry(
-        Action::Redo,
-        &[ctrl("Y"), Shortcut { ctrl: true, shift: true, key: "Z" }],
-        "Redo",
-        "Does again what was undone.",
-    ),
+    entry(Action::Redo, &[ctrl("Y"), Shortcut { shift: true, ..ctrl("Z") }], "Redo", "Does again what was undone."),
     entry(Action::Duplicate, &[ctrl("D")], "Duplicate", "Copies what is selected."),
     entry(
         Action::Delete,
@@ -126,7 +144,7 @@ pub const ENTRIES: &[Entry] = &[
         Action::Tool(Tool::Join(Join::Rod)),
         &[key("J")],
         "Join with a rod",
-        "Drag from body to body, or to a free point: the distance stays.",
+        "Drag from body to body, or to a free point: the distance stays. Between free points a new particle hangs.",
     ),
     entry(
         Action::Tool(Tool::Join(Join::Spring)),
@@ -163,6 +181,24 @@ pub const ENTRIES: &[Entry] = &[
         "Click: a net of springs, two corners pinned.",
     ),
     entry(Action::Tool(Tool::Spawn(Spawn::Pile)), &[key("7")], "Pile", "Click: a block of discs that falls apart."),
+    entry(
+        Action::Toggle(Shown::Tension),
+        &[shift("T")],
+        "Tension",
+        "Colours rods, ropes and springs by their tension [N].",
+    ),
+    entry(Action::Toggle(Shown::Speed), &[shift("S")], "Speed", "Colours moving bodies by their speed [m/s]."),
+    entry(
+        Action::Toggle(Shown::Velocities),
+        &[shift("V")],
+        "Velocities",
+        "An arrow for the velocity of every body [m/s].",
+    ),
+    entry(Action::Toggle(Shown::Contacts), &[shift("C")], "Contacts", "Where bodies touch, and the normal force [N]."),
+    entry(Action::Toggle(Shown::Trails), &[shift("L")], "Trails", "Where bodies were, fading."),
+    entry(Action::Toggle(Shown::Grid), &[shift("G")], "Grid", "Lines at round distances, with units [m]."),
+    entry(Action::Toggle(Shown::Plots), &[shift("P")], "Plots", "Energy, error and step time at the bottom."),
+    entry(Action::ToggleTheme, &[shift("D")], "Theme", "Changes between dark and light."),
     entry(Action::Palette, &[ctrl("K")], "Find an action", "Lists every action with its shortcut; type to find one."),
     entry(Action::Help, &[key("F1")], "Help", "Lists every action with its shortcut."),
     entry(Action::FullScreen, &[key("F11")], "Full screen", "Fills the screen with the window, or gives it back."),

@@ -3,6 +3,7 @@
 
 pub mod camera;
 pub mod command;
+pub mod drawn;
 pub mod edit;
 pub mod frame;
 pub mod history;
@@ -10,8 +11,10 @@ pub mod keys;
 pub mod pick;
 pub mod plot_data;
 pub mod session;
+mod setting;
 mod simulation;
 pub mod tools;
+pub mod trace;
 
 pub use camera::Camera;
 pub use command::{Command, Edit, Spawn};
@@ -21,3 +24,4 @@ pub use plot_data::{Plots, Sample};
 pub use session::Session;
 pub use simulation::frame_after;
 pub use tools::{Button, Feedback, Join, Modifiers, Phase, PointerEvent, Tool, Tools};
+pub use trace::Trace;

@@ -1,6 +1,8 @@
 //! What lies under the pointer: an exact hit first, then the nearest within reach; of several, the smallest on top.
 
 use super::camera::Camera;
+use super::drawn;
+use crate::engine::constraint::WORLD;
 use crate::engine::{DVec2, Id, Shape, World};
 
 /// How far from a thing the pointer may be and still mean it [canvas points].
@@ -27,7 +29,10 @@ pub fn item(world: &World, id: Id) -> Option<Item> {
 /// The body, constraint or wall at a canvas point.
 pub fn pick(world: &World, camera: &Camera, canvas: DVec2) -> Option<Id> {
     let point = camera.to_world(canvas);
-    let candidates = bodies(world, point).chain(constraints(world, point)).chain(walls(world, point));
+    let mut counts = Vec::new();
+    drawn::count_links(world, &mut counts);
+    let links = (0..world.constraints().len()).map(|link| constraint(world, &counts, camera.scale, link, point));
+    let candidates = bodies(world, point).chain(links).chain(walls(world, point));
     best(candidates, REACH / camera.scale)
 }
 
@@ -74,10 +79,14 @@ pub fn bounds(world: &World, ids: &[Id]) -> Option<(DVec2, DVec2)> {
     boxes.into_iter().reduce(|all, one| (all.0.min(one.0), all.1.max(one.1)))
 }
 
-/// One thing near the pointer: how far away its surface is (≤ 0: the pointer is on it), and how large it is.
+/// One thing near the pointer.
 struct Candidate {
     id: Id,
+    /// The pointer is on it.
+    hit: bool,
+    /// From its surface [m].
     distance: f64,
+    /// The smaller of two that are hit lies on top [m].
     size: f64,
 }
 
@@ -85,28 +94,41 @@ fn bodies(world: &World, point: DVec2) -> impl Iterator<Item = Candidate> {
     let bodies = world.bodies();
     (0..bodies.len()).map(move |i| {
         let radius = bodies.radius[i];
-        Candidate { id: bodies.id[i], distance: point.distance(bodies.position[i]) - radius, size: radius }
+        let distance = point.distance(bodies.position[i]) - radius;
+        Candidate { id: bodies.id[i], hit: distance <= 0.0, distance, size: radius }
     })
 }
 
-fn constraints(world: &World, point: DVec2) -> impl Iterator<Item = Candidate> {
-    (0..world.constraints().len()).map(move |i| {
-        let (from, to) = world.ends(i);
-        let distance = Shape::Segment { from, to }.distance(point).0;
-        Candidate { id: world.constraints().id[i], distance, size: from.distance(to) }
-    })
+/// A link is hit where its line can be seen. One that lies over the beads of its chain is hit along its middle half and wins
+/// there: the rest is left to the beads.
+fn constraint(world: &World, counts: &[u32], scale: f64, link: usize, point: DVec2) -> Candidate {
+    let (from, to) = world.ends(link);
+    let half_width = drawn::half_width(world, counts, link, scale) / scale;
+    let length = from.distance(to);
+    let away = |from: DVec2, to: DVec2| Shape::Segment { from, to }.distance(point).0 - half_width;
+    let above = length == 0.0 || drawn::lies_above(world, counts, link, scale);
+    let links = world.constraints();
+    let hidden = |body: u32| {
+        let radius = if body == WORLD { 0.0 } else { drawn::radius(world, body as usize, scale) / scale };
+        (radius / length).min(1.0)
+    };
+    let [start, end] = if above { [0.25, 0.25] } else { [hidden(links.a[link]), hidden(links.b[link])] };
+    let hit = start + end < 1.0 && away(from.lerp(to, start), to.lerp(from, end)) <= 0.0;
+    let size = if above { half_width } else { length };
+    Candidate { id: links.id[link], hit, distance: away(from, to), size }
 }
 
 fn walls(world: &World, point: DVec2) -> impl Iterator<Item = Candidate> {
     world.wall_ids().iter().zip(world.walls()).map(move |(id, wall)| {
         let (min, max) = wall.shape.bounds();
-        Candidate { id: *id, distance: wall.shape.distance(point).0, size: min.distance(max) }
+        let distance = wall.shape.distance(point).0;
+        Candidate { id: *id, hit: distance <= 0.0, distance, size: min.distance(max) }
     })
 }
 
 /// The smallest of those hit exactly, else the nearest within `reach` [m].
 fn best(candidates: impl Iterator<Item = Candidate>, reach: f64) -> Option<Id> {
-    let rank = |c: &Candidate| if c.distance <= 0.0 { (0, c.size, 0.0) } else { (1, c.distance, c.size) };
+    let rank = |c: &Candidate| if c.hit { (0, c.size, 0.0) } else { (1, c.distance, c.size) };
     let near = candidates.filter(|c| c.distance <= reach);
     near.min_by(|a, b| {
         let (a, b) = (rank(a), rank(b));

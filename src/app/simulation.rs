@@ -5,15 +5,20 @@ use super::edit;
 use super::frame::{Frame, SceneInfo, Speed};
 use super::history::{History, State};
 use super::plot_data::{Plots, Sample};
+use super::trace::Trace;
+use super::{pick, setting};
 use crate::engine::{DVec2, EngineError, Grip, Id, Method, StepReport, Stepper, World};
 use crate::measure::Measures;
 use crate::scene::{self, Setup};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, OnceLock};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Speeds that can be asked for [simulated seconds a second].
 pub const SPEED_RANGE: [f64; 2] = [0.01, 10.0];
+
+/// Changes of one setting that follow each other within this time are undone as one: they are the moves of one hand.
+const SETTLING: Duration = Duration::from_secs(1);
 
 /// Everything that the simulation thread owns.
 pub(super) struct Simulation {
@@ -23,7 +28,10 @@ pub(super) struct Simulation {
     start: Arc<Setup>,
     scene: Arc<SceneInfo>,
     history: History,
+    /// The setting that the last command changed, and when.
+    setting: Option<(&'static str, Instant)>,
     plots: Plots,
+    trace: Trace,
     report: StepReport,
     measures: Measures,
     previous_position: Vec<DVec2>,
@@ -49,7 +57,9 @@ impl Simulation {
             stepper,
             scene: Arc::new(info(&start, 1)),
             history: History::default(),
+            setting: None,
             plots: Plots::default(),
+            trace: Trace::default(),
             report: StepReport::default(),
             measures: Measures::of(&start.world),
             previous_position: Vec::new(),
@@ -102,6 +112,7 @@ impl Simulation {
             report: self.report.clone(),
             measures: self.measures,
             plots: self.plots.clone(),
+            trace: self.trace.clone(),
             plan: self.stepper.plan(&self.world).sentence().to_string(),
             running: self.running,
             speed: Speed { wanted: self.speed, achieved },
@@ -126,6 +137,7 @@ impl Simulation {
         } else {
             self.measures = Measures::of(&self.world);
             self.plots.push(Sample::new(self.measures, &report));
+            self.trace.push(&self.world);
         }
         self.report = report;
     }
@@ -170,6 +182,8 @@ impl Simulation {
 
     fn try_apply(&mut self, command: Command) -> Result<(), String> {
         let text = |error: EngineError| error.to_string();
+        // Any other command settles a setting that was being changed.
+        let setting = self.setting.take();
         match command {
             Command::Run(running) => {
                 self.running = running;
@@ -193,10 +207,22 @@ impl Simulation {
                 scene::save(&path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
                 self.saved = Some(path.display().to_string());
             }
-            Command::Method(method) => self.stepper.set_method(method).map_err(text)?,
-            Command::Gravity(gravity) => self.world.set_gravity(gravity).map_err(text)?,
-            Command::Drag(drag) => self.world.set_drag(drag).map_err(text)?,
-            Command::Tuning(tuning) => self.world.set_tuning(tuning).map_err(text)?,
+            Command::Method(method) => {
+                let name = setting::method(self.stepper.method(), &method);
+                self.set(name, setting, |now| now.stepper.set_method(method)).map_err(text)?;
+            }
+            Command::Gravity(gravity) => {
+                let name = (self.world.gravity() != gravity).then_some("gravity");
+                self.set(name, setting, |now| now.world.set_gravity(gravity)).map_err(text)?;
+            }
+            Command::Drag(drag) => {
+                let name = (self.world.drag() != drag).then_some("air drag");
+                self.set(name, setting, |now| now.world.set_drag(drag)).map_err(text)?;
+            }
+            Command::Tuning(tuning) => {
+                let name = setting::tuning(&self.world.tuning(), &tuning);
+                self.set(name, setting, |now| now.world.set_tuning(tuning)).map_err(text)?;
+            }
             Command::Grab { body, at } => self.grab(body, at).map_err(text)?,
             Command::MoveGrip(target) => {
                 if let Some(grip) = self.world.grip().copied() {
@@ -233,6 +259,32 @@ impl Simulation {
         let state = State { world: setup.world.clone(), method: setup.method, start: Arc::new(setup) };
         self.history.record(format!("{name} {}", state.start.name), before);
         self.restore(state);
+    }
+
+    /// Changes the setting `name`, if any is another one than before. `last` is the setting that the command before changed,
+    /// and when: a run of changes of the same one is undone as one.
+    fn set(
+        &mut self,
+        name: Option<&'static str>,
+        last: Option<(&'static str, Instant)>,
+        change: impl FnOnce(&mut Simulation) -> Result<(), EngineError>,
+    ) -> Result<(), EngineError> {
+        let Some(name) = name else {
+            self.setting = last;
+            return Ok(());
+        };
+        let now = Instant::now();
+        let goes_on = last.is_some_and(|(last, when)| last == name && now.duration_since(when) <= SETTLING);
+        let before = (!goes_on).then(|| self.state());
+        change(self)?;
+        if let Some(before) = before {
+            self.history.record(format!("Change {name}"), before);
+        }
+        self.setting = Some((name, now));
+        self.saved = None;
+        // Energies follow gravity and stiffness at once, also while paused.
+        self.measures = Measures::of(&self.world);
+        Ok(())
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<(), String> {
@@ -275,6 +327,7 @@ impl Simulation {
         self.measures = Measures::of(&self.world);
         self.previous_position.clear();
         self.previous_angle.clear();
+        self.trace.clear();
     }
 
     fn grab(&mut self, id: Id, at: DVec2) -> Result<(), EngineError> {
@@ -318,6 +371,7 @@ fn info(setup: &Setup, opened: u64) -> SceneInfo {
         title: setup.title.clone(),
         about: setup.about.clone(),
         view: setup.view,
+        bounds: pick::bounds(&setup.world, &[]),
         opened,
     }
 }
@@ -338,6 +392,7 @@ mod tests {
             about,
             world,
             method: Method::default(),
+            names: Default::default(),
             view: None,
             truth: None,
         };

@@ -95,7 +95,8 @@ enum Gesture {
     },
     /// Since the canvas point of the press.
     Grip {
-        body: Id,
+        /// What a click there selects: the body held, or what lies over it.
+        picked: Id,
         pressed: DVec2,
         moved: bool,
     },
@@ -205,6 +206,11 @@ impl Tools {
         Vec::new()
     }
 
+    /// Forgets what is selected, hovered and going on: another scene was opened, whose ids mean other things.
+    pub fn forget(&mut self) {
+        *self = Tools { tool: self.tool, ..Tools::default() };
+    }
+
     /// Forgets what no longer exists in `world`. To be called with every new frame.
     pub fn follow(&mut self, world: &World) {
         self.selection.retain(|id| pick::item(world, *id).is_some());
@@ -259,7 +265,8 @@ impl Tools {
         match self.tool {
             Tool::Drag => match pick::pick_body(world, camera, event.canvas) {
                 Some(body) => {
-                    self.gesture = Gesture::Grip { body, pressed: event.canvas, moved: false };
+                    let picked = pick::pick(world, camera, event.canvas).unwrap_or(body);
+                    self.gesture = Gesture::Grip { picked, pressed: event.canvas, moved: false };
                     return vec![Command::Grab { body, at: free }];
                 }
                 None => self.gesture = Gesture::Box { from: free },
@@ -299,9 +306,9 @@ impl Tools {
         }
         let to = self.pointer.unwrap_or_else(|| camera.to_world(event.canvas));
         match (std::mem::take(&mut self.gesture), self.tool) {
-            (Gesture::Grip { body, moved, .. }, _) => {
+            (Gesture::Grip { picked, moved, .. }, _) => {
                 if !moved {
-                    self.choose(vec![body], event.modifiers);
+                    self.choose(vec![picked], event.modifiers);
                 }
                 vec![Command::Release]
             }
@@ -315,7 +322,7 @@ impl Tools {
             (Gesture::Slash { from }, _) => vec![Command::Edit(Edit::Cut(from, to))],
             (Gesture::Join { from, start }, Tool::Join(kind)) => {
                 let (end, to) = anchor(event, world, camera);
-                join(world, kind, (from, start), (end, to)).map(|c| Command::Edit(Edit::Join(c))).into_iter().collect()
+                join(world, camera, kind, (from, start), (end, to)).map(Command::Edit).into_iter().collect()
             }
             (Gesture::Wall { from }, _) if camera.to_canvas(from).distance(camera.to_canvas(to)) > CLICK_REACH => {
                 vec![Command::Edit(Edit::AddWall(Wall::segment(from, to)))]
@@ -429,20 +436,30 @@ fn anchor(event: &PointerEvent, world: &World, camera: &Camera) -> (Anchor, DVec
     (Anchor::Body(id, world.to_local(index, free)), free)
 }
 
-/// The constraint between two ends as they stand, unless both are fixed or the same, or coincide.
-fn join(world: &World, kind: Join, from: (Anchor, DVec2), to: (Anchor, DVec2)) -> Option<Constraint> {
+/// The constraint between two ends as they stand, unless both are the same or coincide. Between two free points it hangs a
+/// new particle at the second, for two fixed ends would hold nothing.
+fn join(world: &World, camera: &Camera, kind: Join, from: (Anchor, DVec2), to: (Anchor, DVec2)) -> Option<Edit> {
     let length = from.1.distance(to.1);
+    let hangs = from.0.body().is_none() && to.0.body().is_none();
+    if hangs && length * camera.scale <= CLICK_REACH {
+        return None;
+    }
+    let size = spawn_size(camera);
+    let new_mass = hangs.then(|| super::edit::particle(to.1, size).mass);
     let kind = match kind {
         Join::Rod => Kind::Rod { length },
         Join::Rope => Kind::Rope { length },
         Join::Spring => {
             let mass = |anchor: &Anchor| anchor.body().and_then(|id| world.body(id).ok()).filter(moves).map(|b| b.mass);
-            let mass = [mass(&from.0), mass(&to.0)].into_iter().flatten().reduce(f64::min).unwrap_or(1.0);
+            let mass = [mass(&from.0), mass(&to.0), new_mass].into_iter().flatten().reduce(f64::min).unwrap_or(1.0);
             super::edit::spring(length, mass)
         }
     };
+    if hangs {
+        return Some(Edit::Hang { kind, from: from.1, at: to.1, size });
+    }
     let constraint = Constraint { kind, a: from.0, b: to.0 };
-    constraint.validate().ok().map(|()| constraint)
+    constraint.validate().ok().map(|()| Edit::Join(constraint))
 }
 
 fn moves(body: &crate::engine::Body) -> bool {

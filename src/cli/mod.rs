@@ -44,7 +44,8 @@ pub enum Command {
 pub struct ShotArguments {
     /// Name of a shipped scene, or path of a scene file
     pub scene: String,
-    /// The picture to write
+    /// The picture to write, a PNG file
+    #[arg(value_parser = numbers::png)]
     pub file: PathBuf,
     /// Simulated time of the picture [s]
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = numbers::seconds)]

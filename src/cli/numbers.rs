@@ -1,5 +1,7 @@
 //! Numbers of the command line: durations, sizes, counts, with errors that say what is accepted.
 
+use std::path::PathBuf;
+
 /// The longest run that is accepted [s]: over eleven days.
 const LONGEST: f64 = 1e6;
 /// The largest side of a picture [pixels]; graphics adapters commonly stop there.
@@ -43,6 +45,13 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     sides
         .map(|(width, height)| [width, height])
         .ok_or_else(|| format!("expected width and height in pixels from 16 to {LARGEST_SIDE}, such as 1280x800"))
+}
+
+/// The path of a picture, which is a PNG file whatever it is called: another ending would only mislead.
+pub(super) fn png(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let fits = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+    fits.then_some(path).ok_or_else(|| "expected the name of a PNG file, such as picture.png".into())
 }
 
 fn number(text: &str, low: f64, high: f64, expected: &str) -> Result<f64, String> {

@@ -14,9 +14,9 @@ use std::time::Instant;
 /// do not touch. Agreement is the RMS distance of two runs of different tolerance, divided by the length. Takes from
 /// milliseconds to several minutes a scene in an optimised build.
 #[derive(Debug, clap::Args)]
+#[command(group(clap::ArgGroup::new("what").required(true).args(["scene", "all"])))]
 pub struct TruthArguments {
     /// Name of a shipped scene such as truth/rope, or path of a scene file
-    #[arg(required_unless_present = "all", conflicts_with = "all")]
     scene: Option<String>,
     /// All shipped scenes that have a truth
     #[arg(long)]

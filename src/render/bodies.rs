@@ -2,25 +2,8 @@
 
 use super::colour::{Colour, viridis};
 use super::picture::{DiscStyle, Picture, Scene};
+use crate::app::drawn;
 use crate::engine::{DVec2, Motion, World};
-
-/// Least radius of a point mass on the canvas [points]: large enough to be seen and taken hold of.
-pub(super) const LEAST_DOT: f64 = 3.0;
-/// Least radius of a body that has one [points]: it shrinks with the view, but never vanishes.
-const LEAST_DISC: f64 = 1.5;
-/// Least radius of a static body, so that its bolt can be told [points].
-const LEAST_BOLT: f64 = 5.0;
-
-/// Radius of body `index` on the canvas [points].
-pub(super) fn drawn_radius(world: &World, index: usize, scale: f64) -> f64 {
-    let bodies = world.bodies();
-    let least = match (bodies.motion[index], bodies.radius[index]) {
-        (Motion::Static, _) => LEAST_BOLT,
-        (_, 0.0) => LEAST_DOT,
-        _ => LEAST_DISC,
-    };
-    (bodies.radius[index] * scale).max(least)
-}
 
 /// The largest speed of a body [m/s].
 pub(super) fn speed_extreme(world: &World) -> f64 {
@@ -41,7 +24,7 @@ pub(super) fn draw_bodies(picture: &mut Picture, scene: &Scene<'_>, mobility: Mo
     let wanted = |index: &usize| (bodies.motion[*index] == Motion::Static) == (mobility == Mobility::Fixed);
     for index in (0..bodies.len()).filter(wanted) {
         let at = scene.view.place(scene.pose.position(index));
-        let radius = drawn_radius(world, index, scene.view.scale);
+        let radius = drawn::radius(world, index, scene.view.scale);
         if bodies.motion[index] == Motion::Static {
             draw_bolt(picture, scene, at, radius);
         } else {

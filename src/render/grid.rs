@@ -5,8 +5,8 @@ use crate::app::Camera;
 
 /// Least distance of two labelled lines [points].
 const MAJOR_SPACING: f64 = 80.0;
-/// Greatest length of the scale bar [points].
-const SCALE_BAR: f64 = 120.0;
+/// Greatest length of the scale bar [points], and as a share of the canvas's width.
+const SCALE_BAR: (f64, f64) = (120.0, 0.3);
 
 /// Distances of the grid's lines [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,7 +82,7 @@ pub struct ScaleBar {
 
 /// The longest round length that fits the scale bar.
 pub fn scale_bar(camera: &Camera) -> ScaleBar {
-    let metres = step_down(SCALE_BAR / camera.scale);
+    let metres = step_down(SCALE_BAR.0.min(SCALE_BAR.1 * camera.size.x) / camera.scale);
     ScaleBar { metres, points: metres * camera.scale, text: length_text(metres, metres) }
 }
 

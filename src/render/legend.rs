@@ -26,14 +26,22 @@ impl SteadyRange {
         if self.top > 0.0 { value / self.top } else { 0.0 }
     }
 
+    /// Takes note of the largest magnitude without ever falling; whether it fills the range. What is not finite is passed over.
+    pub fn rise(&mut self, largest: f64) -> bool {
+        let wanted = step_up(largest);
+        let fills = largest.is_finite() && largest >= 0.0 && wanted >= self.top;
+        if fills {
+            *self = SteadyRange { top: wanted, low: None };
+        }
+        fills
+    }
+
     /// Takes note of the largest magnitude at an instant. What is not finite is passed over.
     pub fn update(&mut self, largest: f64, now: Instant) {
         if !largest.is_finite() || largest < 0.0 {
             return;
         }
-        let wanted = step_up(largest);
-        if wanted >= self.top {
-            *self = SteadyRange { top: wanted, low: None };
+        if self.rise(largest) {
             return;
         }
         if step_up(largest / WELL_BELOW) >= self.top {

@@ -1,21 +1,16 @@
 //! What ties bodies together: rods, ropes, springs and pins, coloured by the force they carry.
 
-use super::bodies::{draw_bolt, drawn_radius};
+use super::bodies::draw_bolt;
 use super::colour::Colour;
 use super::marks::{Ends, SpringMark};
 use super::picture::{DiscStyle, Picture, Scene};
 use super::view::single;
+use crate::app::drawn::{self, Coil, PIN_RADIUS, ROD_WIDTH, ROPE_WIDTH};
 use crate::engine::constraint::WORLD;
-use crate::engine::{DVec2, Kind, Motion, World};
+use crate::engine::{DVec2, Kind, World};
 
-/// Width of a rod at most and at least [points]; in between a fifth of its length.
-const ROD_WIDTH: [f64; 2] = [1.5, 4.0];
-/// The same for a rope under tension.
-const ROPE_WIDTH: [f64; 2] = [1.5, 3.0];
 /// Width of a rope that hangs slack [points].
 const SLACK_WIDTH: f32 = 1.25;
-/// Radius of a pin, and of the bolt of an end fixed to the world [points].
-const PIN_RADIUS: f64 = 4.0;
 /// A longer spring [points] is drawn line by line: single precision would no longer place its wire.
 const LONGEST_SPRING: f64 = 16_384.0;
 
@@ -57,15 +52,8 @@ pub(super) fn draw_links(picture: &mut Picture, scene: &Scene<'_>, layer: Layer)
 }
 
 fn layer_of(scene: &Scene<'_>, index: usize) -> Layer {
-    let world = &scene.frame.world;
-    let links = world.constraints();
-    let (Kind::Rod { length } | Kind::Rope { length } | Kind::Spring { rest: length, .. }) = links.kind[index] else {
-        return Layer::Below;
-    };
-    let is_bead = |body: usize| scene.links[body] > 1 && world.bodies().motion[body] != Motion::Static;
-    let ends = [links.a[index], links.b[index]].into_iter().filter(|body| *body != WORLD).map(|body| body as usize);
-    let hidden: f64 = ends.filter(|body| is_bead(*body)).map(|body| drawn_radius(world, body, scene.view.scale)).sum();
-    if hidden > 0.5 * length * scene.view.scale { Layer::Above } else { Layer::Below }
+    let above = drawn::lies_above(&scene.frame.world, scene.links, index, scene.view.scale);
+    if above { Layer::Above } else { Layer::Below }
 }
 
 /// Draws what lies over the bodies: pins, and the bolts of ends fixed to the world.
@@ -89,11 +77,6 @@ fn colour(scene: &Scene<'_>, index: usize) -> Colour {
     scene.options.theme.diverging(scene.tension.share(scene.frame.world.constraints().tension(index)))
 }
 
-/// Width of a link of `length` [m] on the canvas [points].
-fn width(scene: &Scene<'_>, length: f64, [least, most]: [f64; 2]) -> f32 {
-    (length / 5.0 * scene.view.scale).clamp(least, most) as f32
-}
-
 fn draw_outline(picture: &mut Picture, scene: &Scene<'_>, index: usize) {
     let Some((colour, extra)) = scene.outline(scene.frame.world.constraints().id[index]) else {
         return;
@@ -107,7 +90,7 @@ fn draw_outline(picture: &mut Picture, scene: &Scene<'_>, index: usize) {
 }
 
 fn draw_rod(picture: &mut Picture, scene: &Scene<'_>, index: usize, length: f64) {
-    let width = width(scene, length, ROD_WIDTH);
+    let width = drawn::width(length, scene.view.scale, ROD_WIDTH) as f32;
     picture.line(&scene.view, ends(scene, index), width, Ends::Round, colour(scene, index));
 }
 
@@ -116,7 +99,7 @@ fn draw_rope(picture: &mut Picture, scene: &Scene<'_>, index: usize, length: f64
     let down = scene.frame.world.gravity().try_normalize().unwrap_or(DVec2::NEG_Y);
     let sag = sag(to - from, length * scene.view.scale, down);
     if sag < 1.0 {
-        let width = width(scene, length, ROPE_WIDTH);
+        let width = drawn::width(length, scene.view.scale, ROPE_WIDTH) as f32;
         picture.line(&scene.view, [from, to], width, Ends::Round, colour(scene, index));
         return;
     }
@@ -142,32 +125,13 @@ fn sag(across: DVec2, length: f64, down: DVec2) -> f64 {
     if spare > 0.0 { (0.375 * span * spare + 0.25 * spare * spare).sqrt() } else { 0.0 }
 }
 
-/// A spring's coil [points], which belongs to the spring and not to its present length.
-struct Coil {
-    /// Length at rest.
-    rest: f64,
-    /// Grows with the root of the rest length, so that short and long springs both look like springs.
-    windings: f64,
-    half_width: f64,
-}
-
-/// The coil of a spring of `rest` [m] that is `length` [points] long now.
-fn coil(rest: f64, length: f64, scale: f64) -> Coil {
-    // A spring that rests at length 0 has no size of its own; it is given that of a spring a third as long as it is now.
-    let rest = if rest > 0.0 { rest } else { length / scale / 3.0 };
-    let windings = (9.0 * rest.sqrt()).round().clamp(4.0, 40.0);
-    Coil { rest: rest * scale, windings, half_width: 0.75 * rest * scale / windings }
-}
-
 fn draw_spring(picture: &mut Picture, scene: &Scene<'_>, index: usize, rest: f64) {
-    /// Room that a winding needs at rest to be told from its neighbours [points].
-    const WINDING: f64 = 6.0;
     let [from, to] = ends(scene, index);
     let length = (to - from).length();
-    let Coil { rest, windings, half_width } = coil(rest, length, scene.view.scale);
-    let wire = (0.2 * half_width).clamp(1.5, 3.0);
+    let Coil { rest, windings, half_width } = drawn::coil(rest, length, scene.view.scale);
+    let wire = (0.2 * half_width).clamp(1.0, 3.0);
     let colour = colour(scene, index);
-    if rest < WINDING * windings || length < 4.0 * wire || is_meshed(scene, index) {
+    if drawn::is_plain(&scene.frame.world, scene.links, index, length) {
         picture.line(&scene.view, [from, to], ROD_WIDTH[0] as f32, Ends::Round, colour);
         return;
     }
@@ -188,14 +152,6 @@ fn draw_spring(picture: &mut Picture, scene: &Scene<'_>, index: usize, rest: f64
             colour,
         });
     }
-}
-
-/// Whether a spring is one of many in a cloth or a soft body, where coils would hide each other.
-fn is_meshed(scene: &Scene<'_>, index: usize) -> bool {
-    /// Links of a body up to which it is a joint, and beyond which it is a node of a mesh.
-    const JOINT: u32 = 3;
-    let links = scene.frame.world.constraints();
-    [links.a[index], links.b[index]].into_iter().any(|body| body != WORLD && scene.links[body as usize] > JOINT)
 }
 
 /// A spring's wire on the canvas [points].
@@ -301,6 +257,7 @@ mod tests {
             report: StepReport::default(),
             measures: Measures::default(),
             plots: crate::app::Plots::default(),
+            trace: crate::app::Trace::default(),
             plan: String::new(),
             running: true,
             speed: Speed { wanted: 1.0, achieved: 1.0 },

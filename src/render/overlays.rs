@@ -1,9 +1,9 @@
 //! What lies over the scene: contacts, velocities, the hand's grip, the mark of a fault, and the marks of tools.
 
-use super::bodies::{LEAST_DOT, drawn_radius};
 use super::marks::Ends;
 use super::options::Extra;
 use super::picture::{DiscStyle, FORCE_TICK, Picture, Scene, VELOCITY_ARROW};
+use crate::app::drawn::{self, LEAST_DOT};
 use crate::engine::{Contact, Motion, World};
 
 /// The largest normal force of a contact [N].
@@ -18,7 +18,7 @@ pub(super) fn draw_contacts(picture: &mut Picture, scene: &Scene<'_>) {
     let contacts = || world.contacts().iter().filter(|contact| touching(contact.normal_force, contact.gap));
     let place = |contact: &Contact| scene.view.place(contact.point + scene.pose.shift(contact.a as usize));
     // Among small discs the marks are small too, so that a pile shows its chains of force.
-    let size = |contact: &Contact| (0.3 * drawn_radius(world, contact.a as usize, scene.view.scale)).clamp(0.75, 2.5);
+    let size = |contact: &Contact| (0.3 * drawn::radius(world, contact.a as usize, scene.view.scale)).clamp(0.75, 2.5);
     for contact in contacts() {
         let at = place(contact);
         let length = 2.0 * size(contact) + FORCE_TICK * scene.force.share(contact.normal_force);
@@ -57,7 +57,7 @@ pub(super) fn draw_fault(picture: &mut Picture, scene: &Scene<'_>) {
     };
     let at = scene.view.place(scene.pose.position(index));
     for (gap, width) in [(6.0, 2.5), (12.0, 1.0)] {
-        let ring = drawn_radius(world, index, scene.view.scale) + gap;
+        let ring = drawn::radius(world, index, scene.view.scale) + gap;
         picture.disc(&scene.view, at, ring, DiscStyle::ring(scene.palette.warning, width));
     }
 }

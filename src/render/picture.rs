@@ -11,8 +11,7 @@ use super::pose::Pose;
 use super::surroundings::{draw_grid, draw_walls};
 use super::trails::{Trails, draw_trails};
 use super::view::{View, single};
-use crate::app::{Camera, Frame};
-use crate::engine::constraint::WORLD;
+use crate::app::{Camera, Frame, drawn};
 use crate::engine::{DVec2, Id, World};
 use std::ops::Range;
 
@@ -34,6 +33,8 @@ pub struct Picture {
     draws: Vec<Draw>,
     /// Of |tension| [N], speed [m/s] and contact force [N].
     ranges: [SteadyRange; 3],
+    /// Opening of the scene that the ranges belong to.
+    opened: u64,
     trails: Trails,
     notes: Notes,
 }
@@ -52,12 +53,7 @@ impl Notes {
         self.selected.clear();
         self.selected.extend_from_slice(&options.selected);
         self.selected.sort_unstable();
-        self.links.clear();
-        self.links.resize(world.bodies().len(), 0);
-        let links = world.constraints();
-        for body in links.a.iter().chain(&links.b).filter(|body| **body != WORLD) {
-            self.links[*body as usize] += 1;
-        }
+        drawn::count_links(world, &mut self.links);
     }
 }
 
@@ -102,9 +98,7 @@ impl Picture {
     pub fn build(&mut self, frame: &Frame, camera: &Camera, options: &ViewOptions, alpha: f64) {
         self.clear(options.theme);
         let extremes = [tension_extreme(&frame.world), speed_extreme(&frame.world), force_extreme(&frame.world)];
-        for (range, extreme) in self.ranges.iter_mut().zip(extremes) {
-            range.update(extreme, frame.published);
-        }
+        self.follow(frame, extremes);
         let [tension, speed, force] = self.ranges;
         let (mut trails, mut notes) = (std::mem::take(&mut self.trails), std::mem::take(&mut self.notes));
         notes.gather(&frame.world, options);
@@ -123,6 +117,21 @@ impl Picture {
         trails.record(&scene);
         self.draw(&scene, &trails);
         (self.trails, self.notes) = (trails, notes);
+    }
+
+    /// Lets the ranges follow the frame: anew with every scene, and only upwards while nothing moves.
+    fn follow(&mut self, frame: &Frame, extremes: [f64; 3]) {
+        if self.opened != frame.scene.opened {
+            self.opened = frame.scene.opened;
+            self.ranges = Default::default();
+        }
+        for (range, extreme) in self.ranges.iter_mut().zip(extremes) {
+            if frame.running {
+                range.update(extreme, frame.published);
+            } else {
+                range.rise(extreme);
+            }
+        }
     }
 
     /// Every layer, from the lowest to the topmost.

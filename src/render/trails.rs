@@ -15,12 +15,17 @@ const SHORTEST: usize = 8;
 /// Shortest piece that is drawn [points].
 const LEAST_PIECE: f64 = 0.5;
 
+/// Least time between two points [s]: a little less than a step at 60 Hz, so that none of those is left out.
+const INTERVAL: f64 = 1.0 / 66.0;
+
 /// Past positions of bodies, oldest first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trails {
     paths: BTreeMap<Id, VecDeque<DVec2>>,
     /// Opening and tick of the frame recorded last.
     last: Option<(u64, u64)>,
+    /// Simulated time of the last point [s].
+    time: f64,
 }
 
 impl Trails {
@@ -33,6 +38,7 @@ impl Trails {
             self.paths.clear();
         }
         let seen = options.trails && continues && self.last == Some((opened, tick));
+        let before = self.last.filter(|_| continues);
         self.last = options.trails.then_some((opened, tick));
         if !options.trails || seen {
             return;
@@ -45,9 +51,24 @@ impl Trails {
         let count = (0..bodies.len()).filter(wanted).count();
         let capacity = (ALL_POINTS / count.max(1)).clamp(SHORTEST, LONGEST);
         self.paths.retain(|id, _| bodies.index_of(*id).is_some_and(|index| wanted(&index)));
-        for index in (0..bodies.len()).filter(wanted) {
-            let path = self.paths.entry(bodies.id[index]).or_default();
-            path.push_back(bodies.position[index]);
+        let ids = (0..bodies.len()).filter(wanted).map(|index| (index, bodies.id[index]));
+        // The steps since the last picture. Those of other bodies, from before an edit, the simulation has forgotten itself.
+        let since = before.map_or(tick, |(_, last)| last);
+        for moment in frame.trace.read().iter().filter(|moment| moment.tick > since && moment.tick < tick) {
+            if moment.positions.len() == bodies.len() && moment.time - self.time >= INTERVAL {
+                self.time = moment.time;
+                self.extend(ids.clone(), &moment.positions, capacity);
+            }
+        }
+        self.time = frame.world.time();
+        self.extend(ids, &bodies.position, capacity);
+    }
+
+    /// Appends a point to the path of each body.
+    fn extend(&mut self, ids: impl Iterator<Item = (usize, Id)>, positions: &[DVec2], capacity: usize) {
+        for (index, id) in ids {
+            let path = self.paths.entry(id).or_default();
+            path.push_back(positions[index]);
             while path.len() > capacity {
                 path.pop_front();
             }

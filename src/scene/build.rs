@@ -41,6 +41,7 @@ impl Document {
             name: name.to_owned(),
             title: if self.title.is_empty() { name.to_owned() } else { self.title.clone() },
             about: self.about.clone(),
+            names: names.of_bodies(&world.bodies().id),
             world,
             method: self.settings.method(),
             view: self.checked_view()?,

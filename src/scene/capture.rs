@@ -5,13 +5,14 @@ use super::document::{
     BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, VERSION, View, WallEntry, is_zero_point,
 };
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, Shape, Wall, World};
+use std::collections::BTreeSet;
 
 /// The document of a setup as it stands. Built again it has the same bits, except for what only the solver remembers
 /// (time, contacts, multipliers, the mouse's grip).
 pub fn capture(setup: &Setup) -> Document {
     let world = &setup.world;
-    let referred = referred_bodies(world);
-    let named = |(index, (_, body)): (usize, (_, Body))| body_entry(referred[index].then(|| name(index)), &body);
+    let names = names(setup);
+    let named = |(index, (_, body)): (usize, (_, Body))| body_entry(names[index].clone(), &body);
     let constraints = 0..world.constraints().len();
     Document {
         version: VERSION,
@@ -23,8 +24,29 @@ pub fn capture(setup: &Setup) -> Document {
         bodies: world.bodies().iter().enumerate().map(named).collect(),
         walls: world.walls().iter().map(wall_entry).collect(),
         generators: Vec::new(),
-        constraints: constraints.map(|index| constraint_entry(world, &world.constraint_at(index))).collect(),
+        constraints: constraints.map(|index| constraint_entry(world, &names, &world.constraint_at(index))).collect(),
     }
+}
+
+/// Names by dense index: those of the scene's file, and others for the bodies that need one.
+fn names(setup: &Setup) -> Vec<Option<String>> {
+    let bodies = setup.world.bodies();
+    let mut used = BTreeSet::new();
+    let mut unused = |mut name: String| {
+        // A body may have been called just as a generator's node is now.
+        while !used.insert(name.clone()) {
+            name.push('_');
+        }
+        name
+    };
+    let own = bodies.id.iter().map(|id| setup.names.get(id).cloned());
+    let mut names: Vec<Option<String>> = own.map(|name| name.map(&mut unused)).collect();
+    for (index, referred) in referred_bodies(&setup.world).into_iter().enumerate() {
+        if referred && names[index].is_none() {
+            names[index] = Some(unused(format!("b{index}")));
+        }
+    }
+    names
 }
 
 /// Which bodies need a name, by dense index.
@@ -37,10 +59,6 @@ fn referred_bodies(world: &World) -> Vec<bool> {
         }
     }
     referred
-}
-
-fn name(index: usize) -> String {
-    format!("b{index}")
 }
 
 fn body_entry(name: Option<String>, body: &Body) -> BodyEntry {
@@ -62,9 +80,9 @@ fn body_entry(name: Option<String>, body: &Body) -> BodyEntry {
     if body.spin.is_some() { BodyEntry::Disc(fields) } else { BodyEntry::Particle(fields) }
 }
 
-fn constraint_entry(world: &World, constraint: &Constraint) -> ConstraintEntry {
-    let (a, at_a) = end(world, &constraint.a);
-    let (b, at_b) = end(world, &constraint.b);
+fn constraint_entry(world: &World, names: &[Option<String>], constraint: &Constraint) -> ConstraintEntry {
+    let (a, at_a) = end(world, names, &constraint.a);
+    let (b, at_b) = end(world, names, &constraint.b);
     match constraint.kind {
         Kind::Rod { length } => ConstraintEntry::Rod { a, at_a, b, at_b, length: Some(length) },
         Kind::Rope { length } => ConstraintEntry::Rope { a, at_a, b, at_b, length: Some(length) },
@@ -75,13 +93,14 @@ fn constraint_entry(world: &World, constraint: &Constraint) -> ConstraintEntry {
     }
 }
 
-fn end(world: &World, anchor: &Anchor) -> (End, Option<DVec2>) {
+fn end(world: &World, names: &[Option<String>], anchor: &Anchor) -> (End, Option<DVec2>) {
     match *anchor {
         Anchor::World(point) => (End::Point(point), None),
         Anchor::Body(id, local) => {
             let index = world.bodies().index_of(id).expect("a constraint's bodies exist");
             let turns = world.bodies().spin(index).is_some();
-            (End::Body(name(index)), (turns && !is_zero_point(&local)).then_some(local))
+            let name = names[index].clone().expect("every body that a constraint refers to was named");
+            (End::Body(name), (turns && !is_zero_point(&local)).then_some(local))
         }
     }
 }

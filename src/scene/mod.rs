@@ -25,7 +25,8 @@ pub use read::{LARGEST_FILE, open, parse, read_file};
 pub use save::{save, to_ron};
 pub use shipped::{Shipped, find_shipped, shipped, truth_scenes};
 
-use crate::engine::{DVec2, Method, World};
+use crate::engine::{DVec2, Id, Method, World};
+use std::collections::BTreeMap;
 
 /// A scene ready to run.
 #[derive(Clone, Debug)]
@@ -36,6 +37,8 @@ pub struct Setup {
     pub about: String,
     pub world: World,
     pub method: Method,
+    /// Names that the file gives to bodies, of those that have one.
+    pub names: BTreeMap<Id, String>,
     /// Rectangle to show: centre and height [m].
     pub view: Option<(DVec2, f64)>,
     /// What its exact motion is compared over, if it has one.

@@ -2,6 +2,7 @@
 
 use super::error::{Fault, Problem};
 use super::nearest::nearest;
+use crate::engine::Id;
 use std::collections::BTreeMap;
 
 /// How a generator's nodes are numbered.
@@ -26,6 +27,21 @@ impl Layout {
             }
         };
         numbers.next().is_none().then_some(index)
+    }
+
+    /// A node's place as part of a body's own name, in which dots have no place: "12", or "3_4" for column and row.
+    fn own(&self, index: usize) -> String {
+        match *self {
+            Layout::Line(_) => index.to_string(),
+            Layout::Grid { columns, .. } => format!("{}_{}", index % columns, index / columns),
+        }
+    }
+
+    fn count(&self) -> usize {
+        match *self {
+            Layout::Line(count) => count,
+            Layout::Grid { columns, rows } => columns * rows,
+        }
     }
 
     /// The nodes as a user may name them.
@@ -87,6 +103,22 @@ impl Names {
             Some(Named::Body(_)) => Err(missing(field, reference, &format!("{name:?} is a body without nodes."))),
             None => Err(missing(field, reference, &self.advice(name))),
         }
+    }
+
+    /// The bodies that have a name; a generator's nodes are called after it.
+    pub(crate) fn of_bodies(&self, ids: &[Id]) -> BTreeMap<Id, String> {
+        let mut all = BTreeMap::new();
+        for (name, named) in &self.named {
+            match *named {
+                Named::Body(index) => all.extend([(ids[index], name.clone())]),
+                Named::Nodes { first, layout } => {
+                    all.extend(
+                        (0..layout.count()).map(|node| (ids[first + node], format!("{name}_{}", layout.own(node)))),
+                    );
+                }
+            }
+        }
+        all
     }
 
     fn advice(&self, name: &str) -> String {

@@ -120,8 +120,8 @@ impl System {
         }
         self.factorise(q);
         for (i, rod) in self.rods.iter().enumerate() {
-            let spin = between(rod.ends, v, Vector::ZERO);
-            let closing = between(rod.ends, a, Vector::ZERO);
+            let spin = between(rod.ends, v);
+            let closing = between(rod.ends, a);
             self.multipliers[i] = -(spin.dot(spin) + self.directions[i].dot(closing));
         }
         self.factor.solve(&mut self.multipliers);
@@ -152,7 +152,7 @@ impl System {
         }
         self.factorise(q);
         for (i, rod) in self.rods.iter().enumerate() {
-            self.multipliers[i] = -self.directions[i].dot(between(rod.ends, v, Vector::ZERO));
+            self.multipliers[i] = -self.directions[i].dot(between(rod.ends, v));
         }
         self.factor.solve(&mut self.multipliers);
         self.push_along_rods(v);
@@ -188,7 +188,7 @@ impl System {
             }
             let mut pull = DoubleDouble::from(spring.stiffness) * (length - spring.rest.into());
             if spring.damping != 0.0 {
-                let rate = d.dot(between(spring.ends, v, Vector::ZERO)) / length;
+                let rate = d.dot(between(spring.ends, v)) / length;
                 pull += DoubleDouble::from(spring.damping) * rate;
             }
             push(spring.ends, d.times(-pull / length), &self.inverse_mass, a);
@@ -235,9 +235,9 @@ fn between_points(ends: [End; 2], q: &[Vector]) -> Vector {
     point(ends[1]) - point(ends[0])
 }
 
-/// Second end minus first, of velocities or accelerations; `fixed` is that of what does not move.
-fn between(ends: [End; 2], values: &[Vector], fixed: Vector) -> Vector {
-    let value = |end| if let End::Moving(i) = end { values[i] } else { fixed };
+/// Second end minus first, of velocities or accelerations, which are zero where nothing moves.
+fn between(ends: [End; 2], values: &[Vector]) -> Vector {
+    let value = |end| if let End::Moving(i) = end { values[i] } else { Vector::ZERO };
     value(ends[1]) - value(ends[0])
 }
 

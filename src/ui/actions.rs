@@ -11,6 +11,8 @@ use egui::{Event, Key, Modifiers};
 pub const SPEEDS: [f64; 2] = [0.01, 10.0];
 /// How far beside the original a duplicate lands [canvas points].
 const DUPLICATE_OFFSET: f64 = 32.0;
+/// Room beside what lies furthest out, as a factor.
+const SIDE_MARGIN: f64 = 1.04;
 /// Zoom of one press of a key.
 const ZOOM: f64 = 1.25;
 
@@ -47,6 +49,11 @@ impl Shell {
                 self.act_on_selection(action, scene)
             }
             Action::Tool(tool) => scene.commands.extend(self.tools.set_tool(tool)),
+            Action::Toggle(what) => {
+                let on = self.state.shown(what);
+                *on = !*on;
+            }
+            Action::ToggleTheme => self.state.theme = self.state.theme.other(),
             Action::FullScreen => *scene.full_screen = true,
             Action::Quit => *scene.quit = true,
             Action::Escape => self.escape(scene.commands),
@@ -96,12 +103,15 @@ impl Shell {
         }
     }
 
-    /// Gives up one thing: the palette, the help, then what the tool is about.
+    /// Gives up one thing: the palette, the help, what is typed to find a scene, then what the tool is about.
     fn escape(&mut self, commands: &mut Vec<Command>) {
         if self.state.finder.take().is_some() {
             self.state.focus = Some(Field::Canvas);
         } else if self.state.help {
             self.state.help = false;
+        } else if !self.tools.busy() && !self.state.scene_filter.is_empty() {
+            self.state.scene_filter.clear();
+            self.state.focus = Some(Field::Canvas);
         } else {
             commands.extend(self.tools.escape());
         }
@@ -133,13 +143,12 @@ fn speed(wanted: f64, factor: f64) -> f64 {
 /// Shows the scene's own view, or else everything.
 pub fn fit_all(frame: &Frame, camera: &mut Camera) {
     match frame.scene.view {
-        // A scene asks for a height; the margin that `fit` adds is part of it already. On a narrow canvas the bodies must be
-        // seen too, unless they lie far out.
+        // A scene asks for a height. On a narrow canvas all that was there at its start must be seen too, the walls
+        // included, unless it lies far out.
         Some((centre, height)) => {
-            let far = frame.world.bodies().position.iter().map(|p| (p.x - centre.x).abs()).fold(0.0, f64::max);
-            let reach = far.min(height);
-            let half = DVec2::new(reach, height / 2.4);
-            camera.fit(centre - half, centre + half);
+            let far = frame.scene.bounds.map_or(0.0, |(min, max)| (centre.x - min.x).max(max.x - centre.x));
+            let half = DVec2::new((SIDE_MARGIN * far).min(height), height / 2.0);
+            camera.show(centre - half, centre + half);
         }
         None => fit(frame, camera, &[]),
     }

@@ -22,7 +22,7 @@ pub fn show(ui: &Ui, frame: &Frame, canvas: Rect, actions: &mut Vec<Action>, com
                 ui.set_width(width);
                 // The first sentence says what failed; the rest why, and what to try.
                 let (what, rest) = fault.split_once(". ").unwrap_or((fault, ""));
-                ui.add(Label::new(RichText::new(first_letter_up(what)).color(colours.strong).heading()).wrap());
+                ui.add(Label::new(RichText::new(sentence(what)).color(colours.strong).heading()).wrap());
                 if !rest.is_empty() {
                     ui.add(Label::new(rest).wrap());
                 }
@@ -31,8 +31,9 @@ pub fn show(ui: &Ui, frame: &Frame, canvas: Rect, actions: &mut Vec<Action>, com
                     if ui.button("Dismiss").on_hover_text("Closes this note. The scene stays as it is.").clicked() {
                         commands.push(Command::DismissFault);
                     }
-                    let restart = ui.button("Restart scene").on_hover_text(Action::Restart.tooltip());
-                    if restart.clicked() {
+                    // Starting anew mends a run that was lost, and nothing else.
+                    let lost = frame.report.divergence.is_some();
+                    if lost && ui.button("Restart scene").on_hover_text(Action::Restart.tooltip()).clicked() {
                         commands.push(Command::DismissFault);
                         actions.push(Action::Restart);
                     }
@@ -41,7 +42,26 @@ pub fn show(ui: &Ui, frame: &Frame, canvas: Rect, actions: &mut Vec<Action>, com
         });
 }
 
-fn first_letter_up(text: &str) -> String {
+/// `text` with a capital, unless it begins with something other than a word: a path, a name.
+fn sentence(text: &str) -> String {
+    let first = text.split(' ').next().unwrap_or_default();
+    if !first.chars().all(char::is_alphabetic) {
+        return text.to_owned();
+    }
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sentence;
+
+    #[test]
+    fn a_sentence_begins_with_a_capital_and_a_path_as_it_is() {
+        assert_eq!(sentence("the run diverged: velocity"), "The run diverged: velocity");
+        assert_eq!(sentence("élan"), "Élan");
+        for path in ["mine.ron:3:5: found a comma", "./mine.ron: no such file", "brigde: found no such file", ""] {
+            assert_eq!(sentence(path), path);
+        }
+    }
 }

@@ -1,13 +1,13 @@
 //! The palette of actions: type a few letters, get every action and scene that fits, with its shortcut; Enter does it.
 
 use super::state::{Field, State};
-use super::theme;
+use super::{theme, widgets};
 use crate::app::{Action, keys};
 use crate::scene::Shipped;
-use egui::{Align2, FontId, Id, Key, Modal, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Align2, FontId, Id, Key, Modal, Response, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
-/// Lines shown at most.
-const LINES: usize = 12;
+/// Lines in sight; the others are reached by scrolling.
+const LINES: f32 = 12.0;
 
 /// What was chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,7 +68,7 @@ pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Optio
     let modal = Modal::new(Id::unique("finder")).area(area).frame(frame).show(ctx, |ui| {
         ui.set_width(480.0);
         let lines = find(&finder.query, scenes);
-        let count = lines.len().min(LINES);
+        let count = lines.len();
         // Before the field, which would take the arrows itself.
         let moved =
             ui.input(|input| i32::from(input.key_pressed(Key::ArrowDown)) - i32::from(input.key_pressed(Key::ArrowUp)));
@@ -78,20 +78,32 @@ pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Optio
         if focus {
             response.request_focus();
         }
+        let before = finder.chosen;
         if response.changed() {
             finder.chosen = 0;
         } else if count > 0 {
             finder.chosen = (finder.chosen as i32 + moved).clamp(0, count as i32 - 1) as usize;
         }
+        let follow = response.changed() || finder.chosen != before;
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         response.on_hover_text("Type some letters; arrows choose, Enter does it. [Ctrl-K]");
         ui.add_space(theme::GRID);
         let mut chosen = entered.then_some(finder.chosen);
-        for (index, line) in lines.iter().take(LINES).enumerate() {
-            if row(ui, line, index == finder.chosen) {
-                chosen = Some(index);
-            }
+        if lines.is_empty() {
+            widgets::note(ui, "Nothing found. Esc closes this list.");
         }
+        let height = LINES * (theme::ROW + 2.0 * theme::GRID);
+        widgets::scroll(ui, ScrollArea::vertical().max_height(height).auto_shrink([false, true]), |ui| {
+            for (index, line) in lines.iter().enumerate() {
+                let response = row(ui, line, index == finder.chosen);
+                if follow && index == finder.chosen {
+                    response.scroll_to_me(None);
+                }
+                if response.clicked() {
+                    chosen = Some(index);
+                }
+            }
+        });
         chosen.and_then(|index| lines.get(index)).map(|line| line.found.clone())
     });
     if modal.inner.is_none() && !modal.should_close() {
@@ -102,7 +114,7 @@ pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Optio
     modal.inner
 }
 
-fn row(ui: &mut Ui, line: &Line, chosen: bool) -> bool {
+fn row(ui: &mut Ui, line: &Line, chosen: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), theme::ROW + theme::GRID), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &line.name));
     let colours = theme::colours(ui);
@@ -117,5 +129,5 @@ fn row(ui: &mut Ui, line: &Line, chosen: bool) -> bool {
     let inset = vec2(2.0 * theme::GRID, 0.0);
     painter.text(rect.left_center() + inset, Align2::LEFT_CENTER, &line.name, font.clone(), ink);
     painter.text(rect.right_center() - inset, Align2::RIGHT_CENTER, &line.shortcut, font, note);
-    response.on_hover_text(&line.help).clicked()
+    response.on_hover_text(&line.help)
 }

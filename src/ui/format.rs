@@ -1,7 +1,11 @@
 //! Numbers as a person reads them: three significant digits and a prefixed unit.
 
+/// Where the smallest prefix ends: what rounds to 1 of it.
+const LEAST: f64 = 0.9995e-12;
+
 /// `value` with three significant digits and the SI prefix that leaves 1 … 999 before the point: `si(0.00123, "m")` is
-/// "1.23 mm". Units that carry a prefix already (kg) or that take none (%, °) are written without a further one.
+/// "1.23 mm". Units that carry a prefix already (kg) or that take none (%, °) are written without a further one. What is
+/// too small for the smallest prefix is "<1 pm": rounding of the computer, and no value to read.
 pub fn si(value: f64, unit: &str) -> String {
     if !value.is_finite() {
         return format!("{value} {unit}");
@@ -9,9 +13,11 @@ pub fn si(value: f64, unit: &str) -> String {
     if value == 0.0 {
         return format!("0 {unit}");
     }
-    let takes_prefix = !(unit.is_empty() || unit.starts_with("kg") || unit.starts_with('°') || unit.starts_with('%'));
-    if !takes_prefix {
+    if !takes_prefix(unit) {
         return format!("{} {unit}", digits(value));
+    }
+    if value.abs() < LEAST {
+        return format!("<1 p{unit}");
     }
     let exponent = (value.abs().log10() / 3.0).floor().clamp(-4.0, 4.0) as i32;
     let (mut scaled, mut exponent) = (value / 1000f64.powi(exponent), exponent);
@@ -24,8 +30,16 @@ pub fn si(value: f64, unit: &str) -> String {
     format!("{} {prefix}{unit}", digits(scaled))
 }
 
-/// The same without trailing zeros, for round numbers on axes and legends: "1 kN", "0.5 m".
+fn takes_prefix(unit: &str) -> bool {
+    !(unit.is_empty() || unit.starts_with("kg") || unit.starts_with('°') || unit.starts_with('%'))
+}
+
+/// The same without trailing zeros, for round numbers on axes and legends: "1 kN", "0.5 m". Where the prefixes end a power of
+/// ten stands in their place, for an axis needs every one of its values.
 pub fn round_si(value: f64, unit: &str) -> String {
+    if value != 0.0 && value.abs() < LEAST && takes_prefix(unit) {
+        return minus(format!("{value:.0e} {unit}"));
+    }
     let text = si(value, unit);
     match text.split_once(' ') {
         Some((number, unit)) if number.contains('.') && !number.contains('e') => {
@@ -48,6 +62,12 @@ pub fn digits(value: f64) -> String {
         let decimals = (2.0 - rounded.log10().floor()).clamp(0.0, 5.0) as usize;
         minus(format!("{value:.decimals$}"))
     }
+}
+
+/// `value` with at most `decimals` decimals and no trailing zeros.
+pub fn plain(value: f64, decimals: usize) -> String {
+    let text = minus(format!("{value:.decimals$}"));
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// The sign as it is printed: as wide as a plus.
@@ -79,7 +99,9 @@ mod tests {
         assert_eq!(si(999.7, "J"), "1.00 kJ");
         assert_eq!(si(0.0, "m"), "0 m");
         assert_eq!(si(0.25, "kg"), "0.250 kg");
-        assert_eq!(si(1e-30, "m"), "1.00e−18 pm");
+        assert_eq!(si(1.44e-15, "m"), "<1 pm");
+        assert_eq!(si(-4.03e-13, "J"), "<1 pJ");
+        assert_eq!(si(0.9996e-12, "m"), "1.00 pm");
         assert_eq!(si(f64::NAN, "J"), "NaN J");
     }
 
@@ -88,6 +110,13 @@ mod tests {
         assert_eq!(round_si(1000.0, "N"), "1 kN");
         assert_eq!(round_si(-0.25, "J"), "−250 mJ");
         assert_eq!(round_si(1.5, "m"), "1.5 m");
+        assert_eq!(round_si(1e-15, "m"), "1e−15 m");
+    }
+
+    #[test]
+    fn a_plain_number_shows_the_decimals_that_it_has() {
+        assert_eq!([0.125, 1.0, 10.0, 0.0625].map(|value| plain(value, 4)), ["0.125", "1", "10", "0.0625"]);
+        assert_eq!((plain(100.0, 0), plain(0.03125, 4)), ("100".into(), "0.0312".into()));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The help: every action of the table with its shortcuts, and what the mouse does.
 
-use super::theme;
+use super::{theme, widgets};
 use crate::app::keys::ENTRIES;
 use egui::{Grid, Id, Label, Modal, RichText, ScrollArea, Ui};
 
@@ -30,7 +30,7 @@ pub fn show(ctx: &egui::Context) -> bool {
         });
         ui.add_space(2.0 * theme::GRID);
         let height = size.y - 4.0 * theme::ROW;
-        ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+        widgets::scroll(ui, ScrollArea::vertical().max_height(height).auto_shrink([false, true]), |ui| {
             let mouse = MOUSE.iter().map(|(name, hand, help)| (*name, (*hand).to_owned(), *help));
             let keys = ENTRIES.iter().map(|entry| {
                 let keys: Vec<String> = entry.shortcuts.iter().map(ToString::to_string).collect();

@@ -8,8 +8,9 @@ use crate::app::{Camera, Frame, pick};
 use crate::engine::{DVec2, Id};
 use crate::render::grid::Axis;
 use crate::render::picture::VELOCITY_ARROW;
-use crate::render::{colour, grid};
-use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
+use crate::render::{self, colour, grid};
+use egui::{Align2, Color32, FontId, Galley, Mesh, Painter, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
+use std::sync::Arc;
 
 /// The ranges of the picture's legends, from `Picture`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,10 +21,18 @@ pub struct Ranges {
     pub speed: f64,
 }
 
-/// Distance of the legends from the canvas's edge [points].
-const EDGE: f32 = 16.0;
-/// Size of the tension legend's bar [points].
-const BAR: egui::Vec2 = vec2(176.0, 8.0);
+/// Distance of the scale bar's plate from the canvas's right edge [points].
+const EDGE: f32 = 8.0;
+/// Distance of the plates from the canvas's lower edge, where the grid's labels are [points].
+const LIFT: f32 = 18.0;
+/// Height of the plate of a legend [points].
+const PLATE_HEIGHT: f32 = 32.0;
+/// Between a plate's edge and what is on it [points].
+const PADDING: f32 = 7.0;
+/// Width of the plate of a colour map [points].
+const MAP_WIDTH: f32 = 190.0;
+/// Height of the map itself [points].
+const BAR_HEIGHT: f32 = 7.0;
 
 /// Everything that is written over the scene.
 pub struct Overlay<'a> {
@@ -42,81 +51,77 @@ impl Overlay<'_> {
         if self.view.grid {
             self.grid_labels(&painter, canvas, &colours);
         }
-        self.scale_bar(&painter, canvas, &colours);
-        // One row along the lower edge: the upper one is kept for what went wrong.
-        let mut start = canvas.left_bottom() + vec2(56.0, -EDGE - 12.0);
+        let bar = self.scale_bar(&painter, canvas, &colours);
+        // Along the lower edge: the upper one is kept for what went wrong.
+        let mut shelf = Shelf::new(canvas, bar);
         let links = !self.frame.world.constraints().is_empty();
         if self.view.tension && links && self.ranges.tension > 0.0 {
-            self.tension_legend(&painter, start, &colours);
-            start.x += BAR.x + 2.0 * EDGE;
+            let end = round_si(self.ranges.tension, "N");
+            let words = [format!("{end} push"), "0".into(), format!("{end} pull")];
+            let colour = |share| shown(self.theme.scene().diverging(2.0 * share - 1.0));
+            shelf.take(MAP_WIDTH).inspect(|plate| map_legend(&painter, *plate, colour, &words, &colours));
+        }
+        if self.view.speed && self.ranges.speed > 0.0 {
+            let words = ["0".into(), String::new(), round_si(self.ranges.speed, "m/s")];
+            let colour = |share| shown(render::viridis(share));
+            shelf.take(MAP_WIDTH).inspect(|plate| map_legend(&painter, *plate, colour, &words, &colours));
         }
         if self.view.velocities && self.ranges.speed > 0.0 {
-            self.velocity_legend(&painter, start, &colours);
+            let label = round_si(self.ranges.speed, "m/s");
+            let galley = painter.layout_no_wrap(label, FontId::proportional(theme::SMALL), colours.text);
+            let width = VELOCITY_ARROW as f32 + 8.0 + galley.size().x + 2.0 * PADDING;
+            shelf.take(width).inspect(|plate| self.velocity_legend(&painter, *plate, galley, &colours));
         }
     }
 
     fn grid_labels(&self, painter: &Painter, canvas: Rect, colours: &Colours) {
         let font = FontId::proportional(theme::SMALL);
+        let ground = shown(self.theme.scene().palette().background).gamma_multiply(0.8);
         for label in grid::labels(self.camera) {
             let at = label.at as f32;
-            let (place, align) = match label.axis {
-                Axis::X => (canvas.left_bottom() + vec2(at + 3.0, -2.0), Align2::LEFT_BOTTOM),
-                Axis::Y => (canvas.left_top() + vec2(4.0, at - 1.0), Align2::LEFT_BOTTOM),
+            let galley = painter.layout_no_wrap(label.text, font.clone(), colours.weak);
+            let corner = match label.axis {
+                Axis::X => canvas.left_bottom() + vec2(at + 3.0, -2.0),
+                Axis::Y => canvas.left_top() + vec2(4.0, at - 1.0),
             };
-            // The two rows would meet in the lower left corner.
+            let place = Align2::LEFT_BOTTOM.anchor_size(corner, galley.size());
+            // The two rows would meet in the lower left corner; half a number would be another one.
             let in_corner = label.axis == Axis::Y && at > canvas.height() - 24.0;
             let behind_column = label.axis == Axis::X && at < 48.0;
-            if !in_corner && !behind_column {
-                painter.text(place, align, label.text, font.clone(), colours.weak.gamma_multiply(0.8));
+            if !in_corner && !behind_column && canvas.contains_rect(place) {
+                painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, ground);
+                painter.galley(place.min, galley, colours.weak);
             }
         }
     }
 
-    fn scale_bar(&self, painter: &Painter, canvas: Rect, colours: &Colours) {
+    /// The scale bar on its plate, in the lower right corner; where the plate lies.
+    fn scale_bar(&self, painter: &Painter, canvas: Rect, colours: &Colours) -> Rect {
         let bar = grid::scale_bar(self.camera);
-        let right = canvas.right_bottom() + vec2(-EDGE, -EDGE - 12.0);
-        let left = right - vec2(bar.points as f32, 0.0);
+        let galley = painter.layout_no_wrap(bar.text, FontId::proportional(theme::SMALL), colours.text);
+        let length = bar.points as f32;
+        let size = vec2(length.max(galley.size().x) + 2.0 * PADDING, PLATE_HEIGHT);
+        let plate = Rect::from_min_size(canvas.right_bottom() - vec2(EDGE, LIFT) - size, size);
+        draw_plate(painter, plate, colours);
         let stroke = Stroke::new(1.5, colours.text);
         let tick = vec2(0.0, theme::GRID);
+        let middle = plate.center_bottom() - vec2(0.0, PADDING);
+        let (left, right) = (middle - vec2(length / 2.0, 0.0), middle + vec2(length / 2.0, 0.0));
         painter.line(vec![left - tick, left, right, right - tick], stroke);
-        text(painter, left.lerp(right, 0.5) - vec2(0.0, 4.0), Align2::CENTER_BOTTOM, &bar.text, colours.text);
+        let words = Align2::CENTER_TOP.anchor_size(plate.center_top() + vec2(0.0, 3.0), galley.size());
+        painter.galley(words.min, galley, colours.text);
+        plate
     }
 
-    /// The diverging map with its ends and middle in newtons, its lower left corner at `start`.
-    fn tension_legend(&self, painter: &Painter, start: Pos2, colours: &Colours) {
-        let bar = Rect::from_min_size(start - vec2(0.0, BAR.y), BAR);
-        let mut mesh = Mesh::default();
-        const STEPS: u32 = 32;
-        for i in 0..=STEPS {
-            let share = f64::from(i) / f64::from(STEPS);
-            let x = bar.left() + bar.width() * share as f32;
-            let colour = shade(self.theme, 2.0 * share - 1.0);
-            mesh.colored_vertex(pos2(x, bar.top()), colour);
-            mesh.colored_vertex(pos2(x, bar.bottom()), colour);
-            if i > 0 {
-                let n = 2 * i;
-                mesh.add_triangle(n - 2, n - 1, n);
-                mesh.add_triangle(n - 1, n, n + 1);
-            }
-        }
-        painter.add(mesh);
-        painter.rect_stroke(bar, 0.0, Stroke::new(1.0, colours.line), StrokeKind::Outside);
-        let above = vec2(0.0, -3.0);
-        let end = round_si(self.ranges.tension, "N");
-        let (push, pull) = (format!("{end} push"), format!("{end} pull"));
-        small(painter, bar.left_top() + above, Align2::LEFT_BOTTOM, &push, colours.text);
-        small(painter, bar.center_top() + above, Align2::CENTER_BOTTOM, "0", colours.text);
-        small(painter, bar.right_top() + above, Align2::RIGHT_BOTTOM, &pull, colours.text);
-    }
-
-    /// An arrow of the length that the range's end has, with that speed.
-    fn velocity_legend(&self, painter: &Painter, start: Pos2, colours: &Colours) {
-        let length = VELOCITY_ARROW as f32;
-        let start = start - vec2(0.0, 4.0);
+    /// An arrow of the length that the range's end has, with that speed in words.
+    fn velocity_legend(&self, painter: &Painter, plate: Rect, words: Arc<Galley>, colours: &Colours) {
+        draw_plate(painter, plate, colours);
+        let start = plate.left_center() + vec2(PADDING, 0.0);
+        let arrow = vec2(VELOCITY_ARROW as f32, 0.0);
         let colour = shown(self.theme.scene().palette().velocity);
-        painter.arrow(start, vec2(length, 0.0), Stroke::new(1.75, colour));
-        let label = round_si(self.ranges.speed, "m/s");
-        text(painter, start + vec2(length + 8.0, 0.0), Align2::LEFT_CENTER, &label, colours.text);
+        painter.arrow(start, arrow, Stroke::new(1.75, colour));
+        let place = start + arrow + vec2(8.0, -words.size().y / 2.0);
+        painter.galley(place, words, colours.text);
     }
 
     /// What lies under the pointer, in words beside it.
@@ -189,17 +194,72 @@ fn value_label(frame: &Frame, id: Id) -> Option<(DVec2, String)> {
     }
 }
 
-fn text(painter: &Painter, at: Pos2, align: Align2, words: &str, colour: Color32) -> Rect {
-    painter.text(at, align, words, FontId::proportional(theme::BODY), colour)
+/// Places for the plates of legends along the lower edge, from left to right and then upwards.
+struct Shelf {
+    left: f32,
+    right: f32,
+    /// Lower left corner of the next plate.
+    next: Pos2,
 }
 
-fn small(painter: &Painter, at: Pos2, align: Align2, words: &str, colour: Color32) -> Rect {
-    painter.text(at, align, words, FontId::proportional(theme::SMALL), colour)
+impl Shelf {
+    /// Between the column of grid labels and the scale bar.
+    fn new(canvas: Rect, scale_bar: Rect) -> Shelf {
+        let left = canvas.left() + 48.0;
+        Shelf { left, right: scale_bar.left() - 2.0 * theme::GRID, next: pos2(left, canvas.bottom() - LIFT) }
+    }
+
+    /// A place for a plate, if the canvas is wide enough for it.
+    fn take(&mut self, width: f32) -> Option<Rect> {
+        if self.left + width > self.right {
+            return None;
+        }
+        if self.next.x + width > self.right {
+            self.next = pos2(self.left, self.next.y - PLATE_HEIGHT - theme::GRID);
+        }
+        let plate = Rect::from_min_size(self.next - vec2(0.0, PLATE_HEIGHT), vec2(width, PLATE_HEIGHT));
+        self.next.x += width + 2.0 * theme::GRID;
+        Some(plate)
+    }
 }
 
-/// A colour of the tension map.
-fn shade(theme: Theme, share: f64) -> Color32 {
-    shown(theme.scene().diverging(share))
+/// The ground of a legend, which keeps it legible over walls and bodies.
+fn draw_plate(painter: &Painter, plate: Rect, colours: &Colours) {
+    painter.rect_filled(plate, theme::GRID, colours.overlay);
+}
+
+/// A colour map, shares 0 … 1 from left to right, with words over its left end, middle and right end.
+fn map_legend(painter: &Painter, plate: Rect, colour: impl Fn(f64) -> Color32, words: &[String; 3], colours: &Colours) {
+    const STEPS: u32 = 32;
+    draw_plate(painter, plate, colours);
+    let room = plate.shrink2(vec2(PADDING, 0.0));
+    let bar = Rect::from_min_max(
+        pos2(room.left(), plate.bottom() - PADDING - BAR_HEIGHT),
+        room.right_bottom() - vec2(0.0, PADDING),
+    );
+    let mut mesh = Mesh::default();
+    for i in 0..=STEPS {
+        let share = f64::from(i) / f64::from(STEPS);
+        let x = bar.left() + bar.width() * share as f32;
+        for y in [bar.top(), bar.bottom()] {
+            mesh.colored_vertex(pos2(x, y), colour(share));
+        }
+        if i > 0 {
+            let n = 2 * i;
+            mesh.add_triangle(n - 2, n - 1, n);
+            mesh.add_triangle(n - 1, n, n + 1);
+        }
+    }
+    painter.add(mesh);
+    painter.rect_stroke(bar, 0.0, Stroke::new(1.0, colours.line), StrokeKind::Outside);
+    let places = [
+        (bar.left_top(), Align2::LEFT_BOTTOM),
+        (bar.center_top(), Align2::CENTER_BOTTOM),
+        (bar.right_top(), Align2::RIGHT_BOTTOM),
+    ];
+    for ((at, align), words) in places.into_iter().zip(words) {
+        painter.text(at - vec2(0.0, 2.0), align, words, FontId::proportional(theme::SMALL), colours.text);
+    }
 }
 
 fn shown(colour: colour::Colour) -> Color32 {

@@ -6,18 +6,24 @@ use super::theme;
 use crate::app::Frame;
 use crate::app::plot_data::{PLOT_SECONDS, Sample};
 use crate::engine::Stage;
-use crate::render::legend::SteadyRange;
-use egui::scroll_area::ScrollBarVisibility;
-use egui::{Color32, Id, Label, RichText, ScrollArea, Sense, Stroke, Ui, Vec2b};
-use egui_plot::{FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotUi};
+use crate::measure::Measures;
+use crate::render::legend::{SteadyRange, step_down, step_up};
+use egui::{Color32, FontId, Id, Rangef, Role, Sense, Shape, Stroke, Ui, Vec2b, WidgetInfo, pos2};
+use egui_plot::{AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotUi};
 use std::time::Instant;
 
 /// Points a curve: more cannot be told apart on a screen and cost time in every pass.
 const POINTS: usize = 500;
+/// Least distance of two labels of the upward axis [points].
+const LABEL_SPACING: f32 = 16.0;
 /// Decades below the top of the logarithmic axis.
 const DECADES: f64 = 8.0;
-/// Least top of a range, so that an empty plot has one [the plot's unit].
-const LEAST_TOP: f64 = 1e-12;
+/// Range of a plot that has nothing but zeros to show [J].
+const NO_ENERGY: f64 = 1.0;
+/// The same for errors [m]: a thousandth of the diameter of a hair.
+const NO_ERROR: f64 = 1e-7;
+/// The budget of a step is in the plot while it is at most so many times what steps take.
+const BUDGET_IN_SIGHT: f64 = 4.0;
 
 /// What the plots remember between passes: their ranges, so that they do not flicker.
 #[derive(Clone, Debug, Default)]
@@ -101,18 +107,14 @@ impl Plots {
         if self.opened != frame.scene.opened {
             *self = Plots { opened: frame.scene.opened, ..Plots::default() };
         }
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             tabs(ui, state);
             ui.add_space(2.0 * theme::GRID);
-            // A legend too long for a narrow window is scrolled, and does not push the window's panels apart.
-            ScrollArea::horizontal().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden).show(
-                ui,
-                |ui| match state.plot {
-                    PlotTab::Energy => energy_legend(ui, frame),
-                    PlotTab::Violation => violation_legend(ui, frame, &mut state.plot_log),
-                    PlotTab::StepTime => step_legend(ui, frame),
-                },
-            );
+            match state.plot {
+                PlotTab::Energy => energy_legend(ui, frame),
+                PlotTab::Violation => violation_legend(ui, frame, &mut state.plot_log),
+                PlotTab::StepTime => step_legend(ui, frame),
+            }
         });
         match state.plot {
             PlotTab::Energy => self.energy(ui, frame),
@@ -122,16 +124,19 @@ impl Plots {
     }
 
     fn energy(&mut self, ui: &mut Ui, frame: &Frame) {
-        let curves = Curves::of(frame, Fold::Mean, |sample| {
-            let m = &sample.measures;
-            [m.kinetic, m.potential, m.elastic, m.total_energy()]
-        });
-        let largest = |sign: f64| curves.largest(|values| values.iter().fold(0.0, |most, v| f64::max(most, sign * v)));
+        let curves = Curves::of(frame, Fold::Mean, |sample| energies(&sample.measures));
+        // Before the first step there is no sample yet, but there are energies.
+        let current = energies(&frame.measures);
+        let most = |values: &[f64; 4], sign: f64| values.iter().fold(0.0, |most, v| f64::max(most, sign * v));
+        let largest = |sign: f64| curves.largest(|values| most(values, sign)).max(most(&current, sign));
         let now = Instant::now();
         self.energy[0].update(largest(1.0), now);
         self.energy[1].update(largest(-1.0), now);
         let colours = theme::colours(ui).series;
-        let range = [-self.energy[1].top(), self.energy[0].top().max(LEAST_TOP)];
+        let range = match [-self.energy[1].top(), self.energy[0].top()] {
+            [0.0, 0.0] => [0.0, NO_ENERGY],
+            range => range,
+        };
         let label = |mark: GridMark| round_si(mark.value, "J");
         plot(ui, "Energy plot", frame, Rise { range, decades: false }, label, |plot| {
             for (index, (name, _)) in ENERGIES.iter().enumerate() {
@@ -145,7 +150,7 @@ impl Plots {
             Curves::of(frame, Fold::Largest, |sample| [sample.measures.violation_max, sample.measures.penetration_max]);
         self.violation.update(curves.largest(|values| values[0].max(values[1])), Instant::now());
         let colours = theme::colours(ui).series;
-        let top = self.violation.top().max(LEAST_TOP);
+        let top = if self.violation.top() > 0.0 { self.violation.top() } else { NO_ERROR };
         let high = top.log10().ceil();
         let range = if logarithmic { [high - DECADES, high] } else { [0.0, top] };
         let label = move |mark: GridMark| {
@@ -163,9 +168,12 @@ impl Plots {
         let curves = Curves::of(frame, Fold::WorstSum, |sample| sample.stage_us);
         self.step.update(curves.largest(|values| values.iter().sum()), Instant::now());
         let (colours, weak) = (theme::colours(ui).series, theme::colours(ui).weak);
-        let budget = 1e6 / (frame.method.hz * frame.speed.wanted.max(1e-6));
+        let budget = budget(frame);
         let label = |mark: GridMark| round_si(mark.value * 1e-6, "s");
-        let rise = Rise { range: [0.0, self.step.top().max(1.0)], decades: false };
+        let top = self.step.top().max(1.0);
+        // Far above, it would press the steps to the ground; the legend says it in any case.
+        let top = if budget <= BUDGET_IN_SIGHT * top { top.max(budget) } else { top };
+        let rise = Rise { range: [0.0, top], decades: false };
         plot(ui, "Step time plot", frame, rise, label, |plot| {
             let mut below = vec![0.0; curves.times.len()];
             for (index, stage) in Stage::ALL.iter().enumerate() {
@@ -178,6 +186,16 @@ impl Plots {
             plot.hline(HLine::new("Budget", budget).color(weak).style(LineStyle::dashed_loose()));
         });
     }
+}
+
+/// In the order of [`ENERGIES`] [J].
+fn energies(m: &Measures) -> [f64; 4] {
+    [m.kinetic, m.potential, m.elastic, m.total_energy()]
+}
+
+/// Time that a step may take to keep up with the wanted speed [µs].
+fn budget(frame: &Frame) -> f64 {
+    1e6 / (frame.method.hz * frame.speed.wanted.max(1e-6))
 }
 
 const ENERGIES: [(&str, &str); 4] = [
@@ -202,11 +220,8 @@ fn tabs(ui: &mut Ui, state: &mut State) {
 }
 
 fn energy_legend(ui: &mut Ui, frame: &Frame) {
-    let m = &frame.measures;
     let colours = theme::colours(ui).series;
-    for ((name, help), (value, colour)) in
-        ENERGIES.iter().zip([m.kinetic, m.potential, m.elastic, m.total_energy()].into_iter().zip(colours))
-    {
+    for ((name, help), (value, colour)) in ENERGIES.iter().zip(energies(&frame.measures).into_iter().zip(colours)) {
         entry(ui, colour, name, &si(value, "J"), help);
     }
 }
@@ -221,29 +236,42 @@ fn violation_legend(ui: &mut Ui, frame: &Frame, logarithmic: &mut bool) {
 }
 
 fn step_legend(ui: &mut Ui, frame: &Frame) {
-    let colours = theme::colours(ui).series;
-    for ((stage, micros), colour) in Stage::ALL.iter().zip(frame.report.stage_us).zip(colours) {
-        // Six names fill the row; their values are in the plot.
-        swatch(ui, colour, stage.name(), &format!("{} of the last step.", si(micros * 1e-6, "s")));
-        ui.add_space(theme::GRID);
+    let theme::Colours { series, weak, .. } = theme::colours(ui);
+    for ((stage, micros), colour) in Stage::ALL.iter().zip(frame.report.stage_us).zip(series) {
+        let help = format!("{}: time of this stage in the last step.", stage.name());
+        entry(ui, colour, stage.name(), &si(micros * 1e-6, "s"), &help);
     }
+    let help = "Time that a step may take to keep up with the wanted speed: the dashed line. It is out of sight while steps \
+                take far less.";
+    let line = |at: Rangef, y: f32| Shape::dashed_line(&[pos2(at.min, y), pos2(at.max, y)], (1.5, weak), 4.0, 2.0);
+    marked(ui, line, "Budget", &si(budget(frame) * 1e-6, "s"), help);
 }
 
-/// A swatch, a name and the value now.
+/// A stroke of a curve's colour, its name and its value now.
 fn entry(ui: &mut Ui, colour: Color32, name: &str, value: &str, tooltip: &str) {
-    swatch(ui, colour, name, tooltip);
-    // A fixed width, so that the row does not dance with its digits.
-    let width = 60.0;
-    ui.allocate_ui_with_layout(egui::vec2(width, theme::ROW), egui::Layout::left_to_right(egui::Align::Center), |ui| {
-        ui.set_min_width(width);
-        ui.add(Label::new(value).truncate()).on_hover_text(tooltip);
-    });
+    marked(ui, |at, y| vec![Shape::hline(at, y, Stroke::new(3.0, colour))], name, value, tooltip);
 }
 
-fn swatch(ui: &mut Ui, colour: Color32, name: &str, tooltip: &str) {
-    let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, theme::ROW), Sense::hover());
-    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(3.0, colour));
-    ui.label(RichText::new(name).color(theme::colours(ui).weak)).on_hover_text(tooltip);
+/// A line as in the plot, a name and a value, in one piece when the row is wrapped.
+fn marked(ui: &mut Ui, line: impl Fn(Rangef, f32) -> Vec<Shape>, name: &str, value: &str, tooltip: &str) {
+    const LINE: f32 = 14.0;
+    /// Room for "−999 mJ", so that the row does not dance with its digits.
+    const VALUE: f32 = 56.0;
+    let colours = theme::colours(ui);
+    let words =
+        |text: &str, colour| ui.painter().layout_no_wrap(text.into(), FontId::proportional(theme::BODY), colour);
+    let (name_words, value_words) = (words(name, colours.weak), words(value, colours.text));
+    let after_name = LINE + 2.0 * theme::GRID + name_words.size().x;
+    let size = egui::vec2(after_name + value_words.size().x.max(VALUE), theme::ROW);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name} {value}")));
+    let y = rect.center().y;
+    ui.painter().extend(line(Rangef::new(rect.left(), rect.left() + LINE), y));
+    for (x, words) in [(LINE + theme::GRID, name_words), (after_name, value_words)] {
+        let at = pos2(rect.left() + x, y - words.size().y / 2.0);
+        ui.painter().galley(at, words, colours.text);
+    }
+    response.on_hover_text(tooltip);
 }
 
 /// The upward axis of a plot.
@@ -262,6 +290,18 @@ fn seconds(bounds: (f64, f64)) -> Vec<GridMark> {
 /// A line every power of ten, a label where the unit's prefix changes.
 fn decades(bounds: (f64, f64)) -> Vec<GridMark> {
     whole_marks(bounds, 3)
+}
+
+/// At least two labelled lines at round values, as close as their labels allow; `height` is that of the plot [points].
+fn rounds((from, to): (f64, f64), height: f32) -> Vec<GridMark> {
+    let span = to - from;
+    let closest = span * f64::from(LABEL_SPACING / height.max(1.0));
+    let step = step_down(span / 2.0).max(step_up(closest).min(step_down(span)));
+    if !(step > 0.0) {
+        return Vec::new();
+    }
+    let marks = (from / step).ceil() as i64..=(to / step).floor() as i64;
+    marks.map(|k| GridMark { value: k as f64 * step, step_size: step }).collect()
 }
 
 /// Marks at whole numbers, every `label`-th of them a main one.
@@ -299,14 +339,20 @@ fn plot<'a>(
         .set_margin_fraction(egui::Vec2::ZERO)
         .show_background(false)
         .grid_color(colours.weak.gamma_multiply(0.5))
-        .y_axis_min_width(56.0)
         .x_grid_spacer(|input| seconds(input.bounds))
         .x_axis_formatter(|mark, _| format!("{} s", mark.value))
-        .y_axis_formatter(move |mark, _| label(mark))
+        .custom_y_axes(vec![
+            AxisHints::new_y()
+                .min_thickness(56.0)
+                .label_spacing(LABEL_SPACING - 4.0..=LABEL_SPACING)
+                .formatter(move |mark, _| label(mark)),
+        ])
         .sense(Sense::hover());
-    if rise.decades {
-        plot = plot.y_grid_spacer(|input| decades(input.bounds));
-    }
+    plot = if rise.decades {
+        plot.y_grid_spacer(|input| decades(input.bounds))
+    } else {
+        plot.y_grid_spacer(move |input| rounds(input.bounds, size.y))
+    };
     let response = plot.show(ui, move |plot| {
         plot.set_auto_bounds(Vec2b::FALSE);
         plot.set_plot_bounds(bounds);

@@ -4,7 +4,9 @@ use super::state::{Field, State};
 use super::{theme, widgets};
 use crate::app::{Command, Frame};
 use crate::scene::Shipped;
-use egui::{Key, Label, RichText, ScrollArea, TextEdit, Ui};
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{Align, Key, Label, RichText, ScrollArea, TextEdit, Ui};
 
 /// The sections "Scenes" and "Save as…".
 pub fn show(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
@@ -22,15 +24,27 @@ pub fn found<'a>(scenes: &'a [Shipped], filter: &str) -> Vec<&'a Shipped> {
     scenes.iter().filter(holds).collect()
 }
 
-/// What Enter opens: the first scene found, or the text itself if it looks like the path of a file.
+/// What Enter opens: the first scene found, or else the text itself, as the path of a file or as a name that the error will
+/// correct. Nothing for an empty text.
 pub fn target(scenes: &[Shipped], filter: &str) -> Option<String> {
     let text = filter.trim();
     let is_path = text.contains('/') || text.contains('\\') || text.ends_with(".ron");
     if is_path {
         return Some(text.to_owned());
     }
+    if text.is_empty() {
+        return None;
+    }
     let exact = scenes.iter().find(|scene| scene.name == text);
-    exact.or(found(scenes, text).first().copied()).map(|scene| scene.name.to_owned())
+    let scene = exact.or(found(scenes, text).first().copied());
+    Some(scene.map_or(text, |scene| scene.name).to_owned())
+}
+
+/// Selects what a text field holds, so that typing replaces it.
+fn select_all(ui: &Ui, id: egui::Id, text: &str) {
+    let mut edit = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+    edit.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()))));
+    edit.store(ui.ctx(), id);
 }
 
 fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
@@ -39,9 +53,10 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
     let response = ui.add(edit).accessible_name("Find a scene");
     if state.takes_focus(Field::SceneFilter) {
         response.request_focus();
+        select_all(ui, response.id, &state.scene_filter);
     }
     let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    response.on_hover_text("Type part of a name, or the path of a scene file; Enter opens. [Ctrl-O]");
+    response.on_hover_text("Type part of a name, or the path of a scene file; Enter opens, Esc clears. [Ctrl-O]");
     if entered && let Some(name) = target(scenes, &state.scene_filter) {
         commands.push(Command::Open(name));
         state.scene_filter.clear();
@@ -49,14 +64,20 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
     }
     let found = found(scenes, &state.scene_filter);
     if found.is_empty() && !scenes.is_empty() {
-        widgets::note(ui, "No scene of that name. Enter opens a path such as ./bridge.ron.");
+        widgets::note(ui, "No scene of that name. Enter opens a path such as ./bridge.ron, Esc shows all scenes.");
     }
     let height = (ui.available_height() - 88.0).max(4.0 * theme::ROW);
-    ScrollArea::vertical().id_salt("scenes").max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+    let area = ScrollArea::vertical().id_salt("scenes").max_height(height).auto_shrink([false, true]);
+    widgets::scroll(ui, area, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         for scene in found {
             let here = scene.name == frame.scene.name;
-            if entry(ui, scene, here) {
+            let response = entry(ui, scene, here);
+            if here && state.listed != Some(frame.scene.opened) {
+                state.listed = Some(frame.scene.opened);
+                response.scroll_to_me(Some(Align::Center));
+            }
+            if response.clicked() {
                 commands.push(Command::Open(scene.name.to_owned()));
                 state.focus = Some(Field::Canvas);
             }
@@ -64,10 +85,10 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
     });
 }
 
-fn entry(ui: &mut Ui, scene: &Shipped, here: bool) -> bool {
+fn entry(ui: &mut Ui, scene: &Shipped, here: bool) -> egui::Response {
     let button = egui::Button::selectable(here, scene.title).truncate();
     let response = ui.add_sized([ui.available_width(), theme::ROW], LeftAligned(button));
-    response.on_hover_text(format!("Opens \"{}\". [ and ] go through the list.", scene.name)).clicked()
+    response.on_hover_text(format!("Opens \"{}\". [ and ] go through the list.", scene.name))
 }
 
 /// `add_sized` centres; a list reads better from the left.

@@ -7,13 +7,16 @@ use super::plots::Plots;
 use super::settings::Defaults;
 use super::state::{Field, State};
 use super::theme::{self, Theme};
-use super::{canvas, fault, finder, help, inspector, palette, scenes, settings, status, transport, view};
+use super::{canvas, fault, finder, help, inspector, palette, scenes, settings, status, transport, view, widgets};
 use crate::app::{Action, Camera, Command, Edit, Feedback, Frame, Spawn, Tools};
 use crate::engine::{DVec2, Id};
 use crate::render::{Extra, ViewOptions};
 use crate::scene::{Shipped, shipped};
 use egui::{CentralPanel, Margin, Panel, Rect, ScrollArea, Ui};
 use std::sync::Arc;
+
+/// Narrower plots would only be legends [points].
+const NARROWEST_PLOT: f32 = 320.0;
 
 /// Everything that the window shows around the scene.
 #[derive(Default)]
@@ -23,6 +26,8 @@ pub struct Shell {
     pub(super) state: State,
     defaults: Defaults,
     plots: Plots,
+    /// Opening of the scene that the tools belong to.
+    opened: u64,
     /// Opening of the scene that the view was fitted to.
     fitted: Option<u64>,
     /// The theme that the context was last given.
@@ -113,6 +118,11 @@ impl Shell {
 
     fn follow(&mut self, frame: &Arc<Frame>) {
         self.defaults.follow(frame);
+        if self.opened != frame.scene.opened {
+            self.opened = frame.scene.opened;
+            self.tools.forget();
+            self.duplicated = None;
+        }
         if let Some(before) = &self.duplicated
             && !Arc::ptr_eq(before, &frame.touched)
         {
@@ -141,19 +151,19 @@ impl Shell {
             .frame(plate(12, 0))
             .show(ui, |ui| status::show(ui, frame));
         Panel::left("tools").default_size(216.0).size_range(180.0..=360.0).frame(plate(12, 8)).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            widgets::scroll(ui, ScrollArea::vertical().auto_shrink(false), |ui| {
                 palette::show(ui, self.tools.tool(), actions);
                 scenes::show(ui, frame, self.scenes, &mut self.state, commands);
             });
         });
         Panel::right("settings").default_size(304.0).size_range(272.0..=480.0).frame(plate(12, 8)).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            widgets::scroll(ui, ScrollArea::vertical().auto_shrink(false), |ui| {
                 inspector::show(ui, frame, self.tools.selection(), commands);
                 settings::show(ui, frame, &self.defaults, commands);
                 view::show(ui, &mut self.state);
             });
         });
-        if self.state.plots {
+        if self.state.plots && ui.available_width() >= NARROWEST_PLOT {
             Panel::bottom("plots")
                 .resizable(true)
                 .default_size(176.0)

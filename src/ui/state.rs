@@ -1,6 +1,7 @@
 //! What a user sets in the window itself: theme, panels, what is drawn, what is typed. None of it touches the simulation.
 
 use super::theme::Theme;
+use crate::app::keys::Shown;
 
 /// What the picture shows besides the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +80,8 @@ pub struct State {
     pub plot_log: bool,
     pub view: View,
     pub scene_filter: String,
+    /// Opening of the scene that was last brought into sight in the list.
+    pub listed: Option<u64>,
     pub save_path: String,
     pub help: bool,
     pub finder: Option<Finder>,
@@ -95,6 +98,7 @@ impl Default for State {
             plot_log: true,
             view: View::default(),
             scene_filter: String::new(),
+            listed: None,
             save_path: "my scene.ron".into(),
             help: false,
             finder: None,
@@ -104,6 +108,19 @@ impl Default for State {
 }
 
 impl State {
+    /// The switch of something that is shown or left out.
+    pub fn shown(&mut self, what: Shown) -> &mut bool {
+        match what {
+            Shown::Tension => &mut self.view.tension,
+            Shown::Speed => &mut self.view.speed,
+            Shown::Velocities => &mut self.view.velocities,
+            Shown::Contacts => &mut self.view.contacts,
+            Shown::Trails => &mut self.view.trails,
+            Shown::Grid => &mut self.view.grid,
+            Shown::Plots => &mut self.plots,
+        }
+    }
+
     /// Whether `field` is to take the keyboard now; asks only once.
     pub fn takes_focus(&mut self, field: Field) -> bool {
         let takes = self.focus == Some(field);

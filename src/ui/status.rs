@@ -3,27 +3,27 @@
 use super::format::{count, si};
 use super::{theme, transport};
 use crate::app::Frame;
-use egui::{Align, Color32, Label, Layout, RichText, Ui};
+use egui::{Align, Color32, Label, Layout, Ui};
 
 /// Shows the bar.
 pub fn show(ui: &mut Ui, frame: &Frame) {
     let colours = theme::colours(ui);
     let world = &frame.world;
-    ui.horizontal_centered(|ui| {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 5.0 * theme::GRID;
-        item(ui, "Bodies", count(world.bodies().len()), colours.text, "Bodies in the world.");
-        item(ui, "Constraints", count(world.constraints().len()), colours.text, "Rods, springs, ropes and pins.");
-        item(ui, "Contacts", count(frame.measures.contacts), colours.text, "Contacts that touch or carry a force.");
-        step_time(ui, frame);
-        let violation = si(frame.measures.violation_max, "m");
-        item(ui, "Error", violation, colours.text, "Worst violation of a rod, a taut rope or a pin [m].");
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let time = format!("{:.2} s", world.time());
-            item(ui, "Time", time, colours.text, "Simulated time.");
-            item(ui, "Step", count(world.tick() as usize), colours.text, "Steps taken.");
-            let (text, colour) = pace(frame, &colours);
-            ui.add(Label::new(RichText::new(text).color(colour)).truncate())
-                .on_hover_text("Simulated time against real time, over the last half second.");
+        // What has no room is left out, the least important first: those that come last.
+        let time = format!("{:.2} s", world.time());
+        item(ui, "Time", time, colours.text, "Simulated time.");
+        item(ui, "Step", count(world.tick() as usize), colours.text, "Steps taken.");
+        let (text, colour) = pace(frame, &colours);
+        item(ui, "", text, colour, "Simulated time against real time, over the last half second.");
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            item(ui, "Bodies", count(world.bodies().len()), colours.text, "Bodies in the world.");
+            item(ui, "Constraints", count(world.constraints().len()), colours.text, "Rods, springs, ropes and pins.");
+            item(ui, "Contacts", count(frame.measures.contacts), colours.text, "Contacts that touch or carry a force.");
+            step_time(ui, frame);
+            let violation = si(frame.measures.violation_max, "m");
+            item(ui, "Error", violation, colours.text, "Worst violation of a rod, a taut rope or a pin [m].");
         });
     });
 }
@@ -45,11 +45,16 @@ fn pace(frame: &Frame, colours: &theme::Colours) -> (String, Color32) {
     (transport::real_time(frame.speed.achieved), if short { colours.warning } else { colours.text })
 }
 
+/// A label and a value, if there is room for both.
 fn item(ui: &mut Ui, label: &str, value: String, colour: Color32, tooltip: &str) {
     let weak = theme::colours(ui).weak;
     let mut job = egui::text::LayoutJob::default();
     let font = egui::FontId::proportional(theme::BODY);
     job.append(label, 0.0, egui::TextFormat::simple(font.clone(), weak));
-    job.append(&value, 1.5 * theme::GRID, egui::TextFormat::simple(font, colour));
-    ui.add(Label::new(job)).on_hover_text(tooltip);
+    let space = if label.is_empty() { 0.0 } else { 1.5 * theme::GRID };
+    job.append(&value, space, egui::TextFormat::simple(font, colour));
+    let galley = ui.painter().layout_job(job);
+    if galley.size().x <= ui.available_width() {
+        ui.add(Label::new(galley)).on_hover_text(tooltip);
+    }
 }

@@ -2,6 +2,7 @@
 
 use egui::{
     Color32, CornerRadius, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, Visuals,
+    style::ScrollStyle,
 };
 
 /// Everything is a multiple of this [points].
@@ -168,7 +169,13 @@ pub fn apply(ctx: &egui::Context, theme: Theme) {
         spacing.slider_rail_height = GRID;
         spacing.tooltip_width = 320.0;
         spacing.icon_width = 16.0;
-        spacing.scroll.bar_width = 2.0 * GRID;
+        // Solid: beside what it scrolls and not over it, and seen before the pointer is there.
+        spacing.scroll = ScrollStyle {
+            bar_width: 1.5 * GRID,
+            bar_inner_margin: GRID,
+            foreground_color: true,
+            ..ScrollStyle::solid()
+        };
         style.interaction.tooltip_delay = 0.35;
         style.interaction.selectable_labels = false;
     });

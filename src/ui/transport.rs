@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, frame: &Frame, theme: &mut Theme, actions: &mut Vec<Act
                 Theme::Dark => (Icon::Light, "Light theme"),
                 Theme::Light => (Icon::Dark, "Dark theme"),
             };
-            if icon_button(ui, icon, name, "Changes between dark and light.", false, true).clicked() {
+            if icon_button(ui, icon, name, &Action::ToggleTheme.tooltip(), false, true).clicked() {
                 *theme = theme.other();
             }
             act(ui, Icon::Panels, "Hide panels", Action::TogglePanels, false, true, actions);
@@ -60,7 +60,8 @@ fn speed(ui: &mut Ui, frame: &Frame, actions: &mut Vec<Action>, commands: &mut V
     let drag = DragValue::new(&mut wanted)
         .range(SPEEDS[0]..=SPEEDS[1])
         .speed(before * 0.02)
-        .max_decimals(2)
+        .max_decimals(4)
+        .custom_formatter(|value, _| format::plain(value, 4))
         .suffix(" ×")
         .update_while_editing(false);
     let response = ui.add_sized([56.0, theme::ROW], drag).accessible_name("Speed");
@@ -69,7 +70,7 @@ fn speed(ui: &mut Ui, frame: &Frame, actions: &mut Vec<Action>, commands: &mut V
         ui.memory_mut(|memory| memory.stop_text_input());
     }
     response.on_hover_text(
-        "Wanted speed, in simulated seconds a second: 1 × is real time. 0.01 to 10. Double-click: back to 1. [-] [=]",
+        "Wanted speed, in simulated seconds a second: 1 × is real time. 0.01 to 10. Double-click: back to 1. [−] [=]",
     );
     if wanted != before {
         draft::write(ui, id, wanted);
@@ -119,9 +120,17 @@ fn title(ui: &mut Ui, frame: &Frame) {
     let name = if scene.title.is_empty() { &scene.name } else { &scene.title };
     // The buttons at the right keep their room.
     let room = (ui.available_width() - 5.0 * (theme::ICON_BUTTON + theme::GRID) - 4.0 * theme::GRID).max(0.0);
+    // Less would only show the beginning of a word.
+    const LEAST: f32 = 64.0;
+    if room < LEAST {
+        return;
+    }
     ui.allocate_ui_with_layout(egui::vec2(room, theme::ROW), Layout::left_to_right(Align::Center), |ui| {
         let heading = Label::new(RichText::new(name).heading().color(colours.strong)).truncate();
         ui.add(heading).on_hover_text(&scene.about);
+        if ui.available_width() < LEAST {
+            return;
+        }
         let first = scene.about.split(". ").next().unwrap_or_default();
         ui.add(Label::new(RichText::new(first).color(colours.weak)).truncate()).on_hover_text(&scene.about);
     });

@@ -3,8 +3,8 @@
 use super::icon::{self, Icon};
 use super::{draft, theme};
 use egui::{
-    Align, DragValue, Label, Layout, Rect, Response, RichText, Role, Sense, Slider, SliderClamping, Stroke, StrokeKind,
-    Ui, UiBuilder, Vec2, WidgetInfo, vec2,
+    Align, DragValue, Label, Layout, Rect, Response, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke,
+    StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -148,8 +148,7 @@ fn trimmed(value: f64, decimals: usize) -> String {
         return format!("{value:.2e}");
     }
     let shown = if size >= 1000.0 { decimals.min(1) } else { decimals };
-    let text = format!("{value:.shown$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    super::format::plain(value, shown)
 }
 
 /// A row: label on the left, a dot if `changed`, and what `content` adds from the right edge leftwards.
@@ -270,6 +269,19 @@ fn focus_ring(ui: &Ui, response: &Response, rect: Rect) {
         let stroke = Stroke::new(1.5, theme::colours(ui).accent);
         ui.painter().rect_stroke(rect.expand(1.5), theme::GRID, stroke, StrokeKind::Outside);
     }
+}
+
+/// What is too long for its place, with a bar beside it that is seen but does not shout: egui gives it the colour of text.
+pub fn scroll(ui: &mut Ui, area: ScrollArea, content: impl FnOnce(&mut Ui)) {
+    let bar = theme::colours(ui).weak.gamma_multiply(0.5);
+    ui.scope(|ui| {
+        let widgets = ui.visuals().widgets.clone();
+        ui.visuals_mut().widgets.inactive.fg_stroke.color = bar;
+        area.show(ui, |ui| {
+            ui.visuals_mut().widgets = widgets;
+            content(ui);
+        });
+    });
 }
 
 /// A heading and what belongs to it, with a line above; folded away by a click on the heading.

@@ -2,8 +2,9 @@
 //!
 //! Solves A λ + b = 0 within bounds, A = J M⁻¹ Jᵀ + γ, without ever forming A: each row in turn gets the impulse that
 //! makes its own equation hold, clamped, and the velocities carry what changed to the other rows (Catto, "Iterative Dynamics
-//! with Temporal Coherence", 2005). A spring's row obeys implicit Euler; what a rigid joint is off by is fed back to the
-//! positions after the drift (see `feedback`), what contacts overlap before it (see `overlap`).
+//! with Temporal Coherence", 2005). A spring's row obeys implicit Euler. A rigid joint's asks for J v = −½ h J̇v,
+//! so that the drift follows the chord of the arc on which it turns; what it is off by is fed back to the positions after the
+//! drift (see `feedback`), what contacts overlap before it (see `overlap`).
 //!
 //! Cost: O(rows) a sweep. It converges linearly, slowly where masses differ much along a chain (condition number of A): a
 //! heavy ball on a light rope stretches it. Redundant rows do no harm.
@@ -89,7 +90,8 @@ impl Pgs {
         for joint in joints {
             let start = force[joint.index as usize] * warm;
             let [first, second] = joint.rows::<SPIN>(state);
-            let turning = joint.half_turning::<SPIN>(state, task.h);
+            let rigid = !joint.form.stiffness.is_finite();
+            let turning = if rigid { joint.half_turning::<SPIN>(state, task.h) } else { DVec2::ZERO };
             self.joints.extend(first.map(|row| JointRow::of::<SPIN>(joint, &row, state, turning.x, start.x, task)));
             self.joints.extend(second.map(|row| JointRow::of::<SPIN>(joint, &row, state, turning.y, start.y, task)));
         }

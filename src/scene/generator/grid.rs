@@ -70,7 +70,9 @@ impl Grid {
             let angle = (2.0 * f64::from(i) - links) * half;
             // cos(end) − cos(angle) as a product, which does not cancel
             let [sum, difference] = [links * half + angle, links * half - angle].map(|turn| libm::sin(0.5 * turn));
-            DVec2::new(0.5 * chord + radius * libm::sin(angle), -2.0 * radius * sum * difference)
+            // Half the chord is radius · sin(end): the last node is a chord from the first to the bit.
+            let x = 0.5 * chord * (1.0 + libm::sin(angle) / libm::sin(links * half));
+            DVec2::new(x, -2.0 * radius * sum * difference)
         };
         (0..self.columns).map(node).collect()
     }
