@@ -202,13 +202,15 @@ impl Plan {
         }
         let stiff = self.joints.iter().filter(|joint| joint.form.stiffness.is_finite()).count();
         if stiff > 0 {
-            parts.push(format!("{} as rows (too stiff for the substep)", plural(stiff, "spring")));
+            let as_rows = if stiff == 1 { "a row" } else { "rows" };
+            parts.push(format!("{} as {as_rows} (too stiff for the substep)", plural(stiff, "spring")));
         }
         if !self.springs.is_empty() {
-            parts.push(format!("{} as forces", plural(self.springs.len(), "spring")));
+            let as_forces = if self.springs.len() == 1 { "a force" } else { "forces" };
+            parts.push(format!("{} as {as_forces}", plural(self.springs.len(), "spring")));
         }
         if parts.is_empty() {
-            parts.push("no constraints".to_string());
+            parts.push("No constraints".to_string());
         }
         let mut sentence = parts.join(", ");
         if !self.islands.is_empty() {
@@ -223,7 +225,7 @@ impl Plan {
         });
         let solver = match (self.rows, self.contacts) {
             (0, false) => "nothing to solve".to_string(),
-            _ => format!("{}, {} rows", method.solver.name(), self.rows),
+            _ => format!("{}, {}", method.solver.name(), plural(self.rows, "row")),
         };
         if self.rest {
             let _ = write!(sentence, "; {solver}; {}.", self.integrator.name());
