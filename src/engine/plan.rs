@@ -50,6 +50,8 @@ pub struct Plan {
     pub(crate) in_island: Vec<bool>,
     /// Integrator of the rest.
     pub(crate) integrator: Integrator,
+    /// Islands left to the substep loop because they could not be carried, by index among all.
+    without: Vec<usize>,
     /// The body whose rim the mouse holds, which turns its island.
     turned: Option<Id>,
     sentence: String,
@@ -69,6 +71,15 @@ impl Plan {
     pub(crate) fn fits(&self, world: &World, method: &Method) -> bool {
         self.turned == turned_by_mouse(world)
             && self.made_for.is_some_and(|(revision, made_for)| revision.same(world.revision) && made_for == *method)
+    }
+
+    /// Makes this the plan in which the islands `without` (indices in the plan with all) go through the substep loop.
+    pub(crate) fn leave_out(&mut self, world: &World, method: &Method, without: &[usize]) {
+        if self.without != without || !self.fits(world, method) {
+            self.without.clear();
+            self.without.extend_from_slice(without);
+            self.derive(world, method);
+        }
     }
 
     /// Derives everything anew. O(bodies + constraints · log constraints).
@@ -100,8 +111,9 @@ impl Plan {
         if method.integrator.is_direct() {
             self.integrator = Integrator::OF_CONTACTS;
         }
-        for group in partition(world) {
-            if self.smooth(world, &group) {
+        let smooth: Vec<Group> = partition(world).into_iter().filter(|group| self.smooth(world, group)).collect();
+        for (index, group) in smooth.into_iter().enumerate() {
+            if self.without.binary_search(&index).is_err() {
                 group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
                 let integrator = Integrator::Taylor;
                 self.islands.push(IslandPlan { group, integrator, tolerance: LOCAL * method.accuracy });

@@ -73,6 +73,8 @@ pub struct StepReport {
     pub local_error: f64,
     /// Rows that depend on others and were dropped.
     pub redundant: usize,
+    /// Islands that could not be carried to the accuracy in this step and went through the substeps instead.
+    pub given_up: usize,
     /// Sweeps of the solver, summed over the substeps.
     pub iterations: u32,
     /// Largest change of a row's velocity (PGS, [m/s]) or of a constraint's value (projection, [m]) in the last sweep.

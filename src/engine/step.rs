@@ -27,6 +27,10 @@ use std::mem::swap;
 pub struct Stepper {
     method: Method,
     plan: Plan,
+    /// The plan for steps in which some islands are given up.
+    fallback: Plan,
+    /// The islands given up in the last step.
+    given_up: Vec<usize>,
     clock: Option<fn() -> u64>,
     state: State,
     forces: Forces,
@@ -85,9 +89,19 @@ impl Stepper {
         let mut laps = Laps::start(self.clock);
         self.plan(world);
         let mut report = StepReport::default();
-        report.divergence = self.islands.advance(world, self.method.step_seconds(), &mut report);
+        self.islands.advance(world, self.method.step_seconds(), &mut report);
+        let falls_back = report.given_up > 0;
+        if falls_back {
+            self.fallback.leave_out(world, &self.method, self.islands.given_up());
+            swap(&mut self.plan, &mut self.fallback);
+        }
+        if self.given_up != self.islands.given_up() {
+            self.given_up.clear();
+            self.given_up.extend_from_slice(self.islands.given_up());
+            self.broad.reset();
+        }
         laps.end(Stage::Solve);
-        if self.plan.rest && report.divergence.is_none() {
+        if self.plan.rest {
             self.substeps(world, &mut report, &mut laps);
         }
         if report.divergence.is_none() {
@@ -95,6 +109,9 @@ impl Stepper {
         }
         laps.end(Stage::Update);
         self.fill_report(world, &laps, &mut report);
+        if falls_back {
+            swap(&mut self.plan, &mut self.fallback);
+        }
         report
     }
 

@@ -97,7 +97,7 @@ fn a_hold_pulls_with_a_bounded_force_and_damps_as_its_closed_form() {
 }
 
 #[test]
-fn redundant_and_contradictory_rods_end_in_a_report() {
+fn redundant_rods_are_dropped_and_contradictory_ones_given_up() {
     let mut world = World::new();
     let a = world.add_body(&point(DVec2::new(1.0, 0.0))).unwrap();
     for _ in 0..2 {
@@ -110,5 +110,6 @@ fn redundant_and_contradictory_rods_end_in_a_report() {
     world.add_constraint(&Constraint::to_world(Kind::Rod { length: 3.0 }, a, DVec2::ZERO)).unwrap();
     let before = world.clone();
     let report = stepper.step(&mut world);
-    assert!(report.divergence.is_some() && world == before, "{report:?}");
+    // No position meets both lengths: the island goes to the solver that settles between them, and the report says so.
+    assert!(report.divergence.is_none() && report.given_up == 1 && world != before, "{report:?}");
 }

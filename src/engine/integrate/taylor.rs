@@ -26,8 +26,8 @@ const HIGHEST_ORDER: usize = 24;
 const LOWEST_ORDER: usize = 4;
 /// Part of the step that the estimate allows.
 const SAFETY: f64 = 0.9;
-/// Shortest step, as a part of the time left, before the run counts as failed.
-const SHORTEST: f64 = 1e-6;
+/// Most steps in one call. What needs more does not run in real time, and is left to a method that damps what it cannot follow.
+const MOST_STEPS: u32 = 1000;
 
 /// What an integrator says of the time it carried an island through.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -121,11 +121,18 @@ impl Taylor {
         let highest = highest_order(tolerance / system.length);
         let mut left = time;
         let mut events = 0;
-        system.meet_constraints();
+        if !system.meet_constraints() {
+            outcome.failed = true;
+            return outcome;
+        }
         while left > 0.0 {
             self.expand_first(system, left);
             let order = self.expand(system, left, tolerance, highest);
             let mut part = self.step_part(order, tolerance);
+            if !(f64::from(outcome.steps) + 1.0 / part <= f64::from(MOST_STEPS)) {
+                outcome.failed = true;
+                return outcome;
+            }
             let most_events = 64 + 8 * (system.rods.a.len() - system.rods.first_rope);
             let event = (events < most_events).then(|| self.first_event(system, order, part)).flatten();
             if let Some((at, _)) = event {
@@ -178,7 +185,7 @@ impl Taylor {
             }
             part *= 0.5;
             outcome.retries += 1;
-            if !(part > SHORTEST) {
+            if !(part * f64::from(MOST_STEPS) > 1.0) {
                 return None;
             }
         }

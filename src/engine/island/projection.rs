@@ -11,22 +11,23 @@ const FAR: f64 = 1e-6;
 const MOST_PASSES: u32 = 30;
 
 impl System {
-    /// Moves the nodes onto the constraints, and leaves the matrix factored there.
-    pub fn project_positions(&mut self) {
+    /// Moves the nodes onto the constraints, and leaves the matrix factored there. Returns whether they were reached.
+    pub fn project_positions(&mut self) -> bool {
         self.factor();
         for _ in 0..MOST_PASSES {
             let far = self.position_error();
             if far == 0.0 || !far.is_finite() {
-                break;
+                return far == 0.0;
             }
             self.matrix.solve(&mut self.rhs);
             self.move_nodes();
             if far < FAR {
                 self.take_differences();
-                break;
+                return self.position_error() < FAR;
             }
             self.factor();
         }
+        false
     }
 
     /// Writes −C to the right-hand side. Returns the largest |C| in parts of L².

@@ -4,6 +4,8 @@ use super::System;
 
 /// A rope closer to its length than this part of L² counts as taut.
 const TIGHT: f64 = 1e-12;
+/// Ends that approach slower than this part of the fastest node's speed may only seem to, by round-off.
+const STILL: f64 = 1e-9;
 
 impl System {
     fn ropes(&self) -> std::ops::Range<usize> {
@@ -11,20 +13,24 @@ impl System {
     }
 
     /// Factors at the present positions; an edit's positions and velocities are projected onto the constraints.
-    pub fn meet_constraints(&mut self) {
+    /// Returns whether there is a position that meets them.
+    pub fn meet_constraints(&mut self) -> bool {
         if self.unconstrained() {
-            return;
+            return true;
         }
         self.tighten();
         self.factor();
-        if self.position_error() > TIGHT {
-            self.project_positions();
+        if self.position_error() > TIGHT && !self.project_positions() {
+            return false;
         }
         self.settle_velocities();
+        true
     }
 
-    /// Takes ropes in force that have reached their length and still part.
+    /// Takes those ropes in force that have reached their length and do not come together. What it decides follows from
+    /// positions and velocities alone; a rope that it holds wrongly would push, and is let go for that.
     fn tighten(&mut self) {
+        let speed = self.nodes.vx.iter().chain(&self.nodes.vy).fold(0.0f64, |m, v| m.max(v.abs()));
         for r in self.ropes() {
             let (a, b) = (self.rods.a[r] as usize, self.rods.b[r] as usize);
             let nodes = &self.nodes;
@@ -32,11 +38,7 @@ impl System {
             let square = self.rods.square[r];
             let tight = dx * dx + dy * dy >= square * (1.0 - 2.0 * TIGHT);
             let parting = dx * (nodes.vx[b] - nodes.vx[a]) + dy * (nodes.vy[b] - nodes.vy[a]);
-            if tight && !self.rods.held[r] && parting >= 0.0 {
-                self.rods.held[r] = true;
-            } else if !tight && self.rods.held[r] {
-                self.rods.held[r] = false;
-            }
+            self.rods.held[r] = tight && parting >= -STILL * speed * square.sqrt();
         }
     }
 

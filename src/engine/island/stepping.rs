@@ -6,7 +6,7 @@ use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use crate::engine::integrate::taylor::Taylor;
 use crate::engine::plan::{IslandPlan, Plan};
-use crate::engine::report::{Divergence, StepReport};
+use crate::engine::report::StepReport;
 use crate::engine::world::World;
 
 /// The islands of a plan, and the scratch memory that they share.
@@ -14,38 +14,50 @@ use crate::engine::world::World;
 pub(crate) struct Islands {
     islands: Vec<(IslandPlan, System)>,
     taylor: Taylor,
+    /// Indices of the islands that could not be carried in this step, ascending.
+    given_up: Vec<usize>,
 }
 
 impl Islands {
     /// Makes the islands of `plan` anew.
     pub fn build(&mut self, world: &World, plan: &Plan) {
         self.islands.clear();
+        self.given_up.clear();
         for plan in &plan.islands {
             let system = System::new(world, &plan.group.bodies, &plan.group.constraints);
             self.islands.push((plan.clone(), system));
         }
     }
 
-    /// Carries all islands through `time` [s], without touching the world.
-    pub fn advance(&mut self, world: &World, time: f64, report: &mut StepReport) -> Option<Divergence> {
-        for (plan, system) in &mut self.islands {
+    /// Carries all islands through `time` [s], without touching the world. Those whose equations cannot be solved to the
+    /// tolerance (contradicting constraints, springs too stiff to be followed in real time) are given up for this step.
+    pub fn advance(&mut self, world: &World, time: f64, report: &mut StepReport) {
+        self.given_up.clear();
+        for (index, (plan, system)) in self.islands.iter_mut().enumerate() {
             system.load(world, time);
             let outcome = self.taylor.advance(system, time, plan.tolerance * system.length);
-            report.island_steps = report.island_steps.max(outcome.steps);
             report.retries += outcome.retries;
+            if outcome.failed || !in_range(system) {
+                self.given_up.push(index);
+                continue;
+            }
+            report.island_steps = report.island_steps.max(outcome.steps);
             report.order = report.order.max(outcome.order);
             report.local_error = report.local_error.max(outcome.error / system.length);
             report.redundant += system.matrix.pivots.dropped;
-            if let Some(divergence) = find_divergence(world, system, outcome.failed) {
-                return Some(divergence);
-            }
         }
-        None
+        report.given_up = self.given_up.len();
     }
 
-    /// Writes the islands back; what turns freely turns on for `time` [s].
+    /// Islands that the last [`Islands::advance`] gave up, by index in the plan, ascending.
+    pub fn given_up(&self) -> &[usize] {
+        &self.given_up
+    }
+
+    /// Writes the islands back, but for those given up; what turns freely turns on for `time` [s].
     pub fn store(&self, world: &mut World, time: f64) {
-        for (_, system) in &self.islands {
+        let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
+        for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
             system.store(world);
             for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
                 let rotor = world.bodies.rotor[*body as usize];
@@ -63,27 +75,13 @@ impl Islands {
     }
 }
 
-/// A node out of the range in which numbers mean anything, or an island that could not be solved.
-fn find_divergence(world: &World, system: &System, failed: bool) -> Option<Divergence> {
+/// Whether all nodes are where numbers mean something.
+fn in_range(system: &System) -> bool {
     let nodes = &system.nodes;
-    let beyond = |value: f64, most: f64| !(value.abs() <= most);
-    for i in (0..nodes.len()).filter(|i| nodes.body[*i] != WORLD) {
-        let far = beyond(nodes.x[i], LARGEST_COORDINATE) || beyond(nodes.y[i], LARGEST_COORDINATE);
-        let fast = beyond(nodes.vx[i], LARGEST_SPEED) || beyond(nodes.vy[i], LARGEST_SPEED);
-        if !far && !fast && !failed {
-            continue;
-        }
-        let (quantity, value) =
-            if far { ("position", nodes.x[i].hypot(nodes.y[i])) } else { ("velocity", nodes.vx[i].hypot(nodes.vy[i])) };
-        let advice = "Its constraints contradict each other or its springs are too stiff for the wanted accuracy: \
-                      move it to where the constraints can hold, or ask for less accuracy.";
-        return Some(Divergence {
-            body: world.bodies.id[nodes.body[i] as usize],
-            quantity,
-            value,
-            substep: 0,
-            advice: advice.into(),
-        });
-    }
-    None
+    // Written so that a NaN is out of range.
+    let within = |values: &[f64], most: f64| values.iter().all(|value| value.abs() <= most);
+    within(&nodes.x, LARGEST_COORDINATE)
+        && within(&nodes.y, LARGEST_COORDINATE)
+        && within(&nodes.vx, LARGEST_SPEED)
+        && within(&nodes.vy, LARGEST_SPEED)
 }
