@@ -247,12 +247,16 @@ fn methods() -> Vec<Method> {
             });
         }
     }
+    for accuracy in [1e-3, 1e-9] {
+        methods.push(Method { hz: 30.0, substeps: 1, iterations: 4, automatic: true, accuracy, ..Method::default() });
+    }
     methods
 }
 
 #[test]
 fn random_worlds_run_for_ten_seconds_without_a_panic_or_a_nan() {
     let (mut diverged, mut plain) = (0, Vec::new());
+    let runs = 240 * methods().len();
     for method in methods() {
         for seed in (0..240).filter(|seed| survive(*seed, method, false)) {
             diverged += 1;
@@ -261,9 +265,9 @@ fn random_worlds_run_for_ten_seconds_without_a_panic_or_a_nan() {
             }
         }
     }
-    println!("{diverged} of 1920 runs diverged and were taken back, {plain:?} of them without an absurd value");
+    println!("{diverged} of {runs} runs diverged and were taken back, {plain:?} of them without an absurd value");
     // Otherwise divergence was never put to the test, or nothing else was.
-    assert!(diverged > 0 && diverged < 1200);
+    assert!(diverged > 0 && diverged < runs * 5 / 8);
     // A world that a user would build does not diverge at 30 Hz, except under explicit Euler, and with the feedback of PGS
     // switched off: its rods then lengthen without end.
     assert!(plain.is_empty());
@@ -275,7 +279,7 @@ fn random_edits_of_a_running_world_do_no_harm() {
     for method in methods() {
         diverged += (1000..1100).filter(|seed| survive(*seed, method, true)).count();
     }
-    println!("{diverged} of 800 edited runs diverged at some step and went on");
+    println!("{diverged} of the edited runs diverged at some step and went on");
     assert!(diverged > 0);
 }
 

@@ -33,6 +33,11 @@ pub(super) fn baumgarte(text: &str) -> Result<f64, String> {
     number(text, 0.0, 1.0, "a number from 0 to 1")
 }
 
+/// Wanted accuracy.
+pub(super) fn accuracy(text: &str) -> Result<f64, String> {
+    number(text, 1e-14, 0.1, "a number from 1e-14 to 0.1")
+}
+
 /// A picture's width and height [pixels].
 pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse::<u32>().ok().filter(|side| (16..=LARGEST_SIDE).contains(side));

@@ -48,6 +48,9 @@ pub struct RunArguments {
     /// How constraints and contacts are solved, in place of the scene's way
     #[arg(long, value_parser = solver())]
     solver: Option<Solver>,
+    /// Wanted accuracy, 1e-14 to 0.1: error after a second or so, in parts of the scene's size; the plan chooses the rest
+    #[arg(long, value_name = "TOL", value_parser = numbers::accuracy)]
+    accuracy: Option<f64>,
     /// Start every solve from zero instead of the last multipliers
     #[arg(long)]
     no_warm_start: bool,
@@ -60,14 +63,8 @@ pub struct RunArguments {
 }
 
 fn integrator() -> impl TypedValueParser<Value = Integrator> {
-    PossibleValuesParser::new(["explicit-euler", "semi-implicit-euler", "position-verlet", "velocity-verlet"]).map(
-        |name| match name.as_str() {
-            "explicit-euler" => Integrator::ExplicitEuler,
-            "position-verlet" => Integrator::PositionVerlet,
-            "velocity-verlet" => Integrator::VelocityVerlet,
-            _ => Integrator::SemiImplicitEuler,
-        },
-    )
+    let named = |key: String| Integrator::ALL.into_iter().find(|integrator| integrator.key() == key);
+    PossibleValuesParser::new(Integrator::ALL.map(Integrator::key)).map(move |key| named(key).unwrap_or_default())
 }
 
 fn solver() -> impl TypedValueParser<Value = Solver> {
@@ -85,7 +82,14 @@ impl RunArguments {
             solver: self.solver.unwrap_or(scene.solver),
             warm_start: scene.warm_start && !self.no_warm_start,
             baumgarte: self.baumgarte.unwrap_or(scene.baumgarte),
+            automatic: self.accuracy.is_some() && self.integrator.is_none() || scene.automatic && !self.by_hand(),
+            accuracy: self.accuracy.unwrap_or(scene.accuracy),
         }
+    }
+
+    /// Whether an option says how the integration is to be done.
+    fn by_hand(&self) -> bool {
+        self.integrator.is_some() || self.solver.is_some()
     }
 
     /// Where the hash and the summary go: not between rows of CSV.

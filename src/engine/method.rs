@@ -15,11 +15,22 @@ pub enum Integrator {
     PositionVerlet,
     /// Half a kick, a drift, half a kick: order 2, symplectic; two velocity solves.
     VelocityVerlet,
+    /// Taylor series of adaptive order and step, for islands that nothing can touch.
+    Taylor,
 }
 
 impl Integrator {
     /// All of them, in the order in which they are listed to a user.
-    pub const ALL: [Integrator; 4] = [
+    pub const ALL: [Integrator; 5] = [
+        Integrator::ExplicitEuler,
+        Integrator::SemiImplicitEuler,
+        Integrator::PositionVerlet,
+        Integrator::VelocityVerlet,
+        Integrator::Taylor,
+    ];
+
+    /// Those that go through the substep loop, with a solver.
+    pub const SUBSTEPPED: [Integrator; 4] = [
         Integrator::ExplicitEuler,
         Integrator::SemiImplicitEuler,
         Integrator::PositionVerlet,
@@ -33,8 +44,29 @@ impl Integrator {
             Integrator::SemiImplicitEuler => "Semi-implicit Euler",
             Integrator::PositionVerlet => "Position Verlet",
             Integrator::VelocityVerlet => "Velocity Verlet",
+            Integrator::Taylor => "Taylor series",
         }
     }
+
+    /// The name on the command line.
+    pub fn key(self) -> &'static str {
+        match self {
+            Integrator::ExplicitEuler => "explicit-euler",
+            Integrator::SemiImplicitEuler => "semi-implicit-euler",
+            Integrator::PositionVerlet => "position-verlet",
+            Integrator::VelocityVerlet => "velocity-verlet",
+            Integrator::Taylor => "taylor",
+        }
+    }
+
+    /// Whether it carries a whole island at once, its constraints solved exactly, instead of taking a solver. What can touch
+    /// is then stepped with [`Integrator::OF_CONTACTS`].
+    pub fn is_direct(self) -> bool {
+        matches!(self, Integrator::Taylor)
+    }
+
+    /// The integrator of what can touch, where the chosen one takes no contacts.
+    pub const OF_CONTACTS: Integrator = Integrator::SemiImplicitEuler;
 }
 
 /// How constraints and contacts are solved within a substep.
@@ -77,6 +109,11 @@ pub struct Method {
     /// Part of the position errors of joints (PGS) and of overlaps that is fed back in a substep, 0 … 1 (Baumgarte 1972).
     /// Less lets chains sag while PGS has not converged, more makes piles jitter.
     pub baumgarte: f64,
+    /// The plan chooses integrators and steps for the wanted accuracy; the fields above then hold for what can touch.
+    pub automatic: bool,
+    /// Wanted accuracy: error after a second or so, in parts of an island's size. Kept by the plan if `automatic`, and by
+    /// integrators that adapt their step.
+    pub accuracy: f64,
 }
 
 impl Default for Method {
@@ -89,6 +126,8 @@ impl Default for Method {
             solver: Solver::default(),
             warm_start: true,
             baumgarte: 0.5,
+            automatic: false,
+            accuracy: 1e-6,
         }
     }
 }
@@ -109,6 +148,7 @@ impl Method {
         check("hz", self.hz, [1.0, 1e5], "between 1 and 100000 steps per second")?;
         check("substeps", f64::from(self.substeps), [1.0, 1e3], "between 1 and 1000")?;
         check("iterations", f64::from(self.iterations), [1.0, 1e5], "between 1 and 100000")?;
-        check("baumgarte", self.baumgarte, [0.0, 1.0], "between 0 and 1")
+        check("baumgarte", self.baumgarte, [0.0, 1.0], "between 0 and 1")?;
+        check("accuracy", self.accuracy, [1e-14, 0.1], "between 1e-14 and 0.1")
     }
 }

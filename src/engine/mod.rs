@@ -10,6 +10,7 @@ pub mod constraint;
 pub mod error;
 pub mod id;
 mod integrate;
+mod island;
 pub mod linalg;
 pub mod method;
 pub mod plan;

@@ -1,11 +1,16 @@
 //! What a world needs from a step: which stages, which springs are forces and which are rows.
 //! Derived from the world and the method, shown to the user, rebuilt only when one of them changed.
 
+use super::body::Motion;
 use super::constraint::Kind;
+use super::constraint::WORLD;
 use super::constraint::form::{Form, Joint};
+use super::id::Id;
+use super::island::partition::{Group, partition};
 use super::state::State;
 use super::world::Revision;
-use super::{Method, World};
+use super::{Integrator, Method, World};
+use glam::DVec2;
 use std::fmt::Write;
 
 /// A spring is integrated as a force while (h ω)² stays below this; explicit methods lose stability at 4 (semi-implicit
@@ -13,6 +18,8 @@ use std::fmt::Write;
 const FORCE_LIMIT: f64 = 1.0;
 /// A damper is integrated as a force while h·c/m stays below this; explicit methods lose stability at 2.
 const DAMPER_LIMIT: f64 = 0.5;
+/// Local error of a step over the wanted accuracy: errors grow as they are carried on.
+const LOCAL: f64 = 0.03;
 
 /// The decisions for one world under one method.
 #[derive(Debug, Default)]
@@ -35,27 +42,97 @@ pub struct Plan {
     pub(crate) rows: usize,
     /// Pairs of bodies joined by a constraint, which never touch each other: ordered, smaller index first.
     pub(crate) joined: Vec<(u32, u32)>,
+    /// Islands that nothing can touch, where the method takes them whole.
+    pub(crate) islands: Vec<IslandPlan>,
+    /// Whether anything is left for the substep loop.
+    pub(crate) rest: bool,
+    /// By body: carried by an island.
+    pub(crate) in_island: Vec<bool>,
+    /// Integrator of the rest.
+    pub(crate) integrator: Integrator,
+    /// Islands left to the substep loop because they could not be carried, by index among all.
+    without: Vec<usize>,
+    /// The body whose rim the mouse holds, which turns its island.
+    turned: Option<Id>,
     sentence: String,
+}
+
+/// How one island is carried.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct IslandPlan {
+    pub group: Group,
+    pub integrator: Integrator,
+    /// Local error allowed in a step, in parts of the island's size.
+    pub tolerance: f64,
 }
 
 impl Plan {
     /// Whether the plan still holds for this world and method.
     pub(crate) fn fits(&self, world: &World, method: &Method) -> bool {
-        self.made_for.is_some_and(|(revision, made_for)| revision.same(world.revision) && made_for == *method)
+        self.turned == turned_by_mouse(world)
+            && self.made_for.is_some_and(|(revision, made_for)| revision.same(world.revision) && made_for == *method)
+    }
+
+    /// Makes this the plan in which the islands `without` (indices in the plan with all) go through the substep loop.
+    pub(crate) fn leave_out(&mut self, world: &World, method: &Method, without: &[usize]) {
+        if self.without != without || !self.fits(world, method) {
+            self.without.clear();
+            self.without.extend_from_slice(without);
+            self.derive(world, method);
+        }
     }
 
     /// Derives everything anew. O(bodies + constraints · log constraints).
     pub(crate) fn derive(&mut self, world: &World, method: &Method) {
         self.made_for = Some((world.revision, *method));
-        self.spin = world.bodies.spinning() > 0;
-        self.divide_constraints(world, method.substep_seconds());
+        self.turned = turned_by_mouse(world);
         self.find_contacts(world);
+        self.find_islands(world, method);
+        self.spin = (0..world.bodies.len()).any(|i| !self.in_island[i] && world.bodies.spin(i).is_some());
+        self.divide_constraints(world, method.substep_seconds());
         self.sentence = self.describe(world, method);
     }
 
     /// What was decided and why, in one sentence for the user.
     pub fn sentence(&self) -> &str {
         &self.sentence
+    }
+
+    /// Gives what nothing can touch and nothing turns to integrators that carry islands whole.
+    fn find_islands(&mut self, world: &World, method: &Method) {
+        self.islands.clear();
+        self.in_island.clear();
+        self.in_island.resize(world.bodies.len(), false);
+        self.integrator = method.integrator;
+        self.rest = true;
+        if !method.automatic && !method.integrator.is_direct() {
+            return;
+        }
+        if method.integrator.is_direct() {
+            self.integrator = Integrator::OF_CONTACTS;
+        }
+        let smooth: Vec<Group> = partition(world).into_iter().filter(|group| self.smooth(world, group)).collect();
+        for (index, group) in smooth.into_iter().enumerate() {
+            if self.without.binary_search(&index).is_err() {
+                group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
+                let integrator = Integrator::Taylor;
+                self.islands.push(IslandPlan { group, integrator, tolerance: LOCAL * method.accuracy });
+            }
+        }
+        let bodies = &world.bodies;
+        self.rest = (0..bodies.len()).any(|i| !self.in_island[i] && bodies.motion[i] != Motion::Static);
+    }
+
+    /// Whether an island moves smoothly: none of its bodies can touch anything, no anchor turns with a body, no hold turns one.
+    fn smooth(&self, world: &World, group: &Group) -> bool {
+        let (bodies, c) = (&world.bodies, &world.constraints);
+        let touches =
+            |body: &u32| self.contacts && bodies.collides[*body as usize] && bodies.radius[*body as usize] > 0.0;
+        let turns = |body: u32, at| body != WORLD && at != DVec2::ZERO;
+        let held = |body: &u32| self.turned == Some(bodies.id[*body as usize]);
+        let turned =
+            |i: &u32| turns(c.a[*i as usize], c.at_a[*i as usize]) || turns(c.b[*i as usize], c.at_b[*i as usize]);
+        !group.bodies.iter().any(|body| touches(body) || held(body)) && !group.constraints.iter().any(turned)
     }
 
     /// Springs become forces where the substep `h` resolves them, rows where it does not; the rest are rows.
@@ -72,6 +149,10 @@ impl Plan {
                 at_a: constraints.at_a[i],
                 at_b: constraints.at_b[i],
                 form: Form::of(&constraints.kind[i], world.tuning.stiffness),
+            })
+            .filter(|joint: &Joint| {
+                let carried = |end: u32| self.in_island.get(end as usize).is_some_and(|carried| *carried);
+                !carried(joint.a) && !carried(joint.b)
             })
             .collect();
         for joint in all.iter().filter(|joint| joint.form.stiffness.is_finite()) {
@@ -144,6 +225,10 @@ impl Plan {
             parts.push("No constraints".to_string());
         }
         let mut sentence = parts.join(", ");
+        if !self.islands.is_empty() {
+            let islands = plural(self.islands.len(), "island");
+            let _ = write!(sentence, "; {islands} by Taylor series to {:.0e}, solved directly", method.accuracy);
+        }
         sentence.push_str(if self.spin { "; rotations" } else { "; particles only" });
         sentence.push_str(match (self.contacts, self.restitution) {
             (false, _) => ", nothing can touch: no broad phase",
@@ -154,7 +239,11 @@ impl Plan {
             (0, false) => "nothing to solve".to_string(),
             _ => format!("{}, {}", method.solver.name(), plural(self.rows, "row")),
         };
-        let _ = write!(sentence, "; {solver}; {}.", method.integrator.name());
+        if self.rest {
+            let _ = write!(sentence, "; {solver}; {}.", self.integrator.name());
+        } else {
+            sentence.push('.');
+        }
         sentence
     }
 }
@@ -163,6 +252,11 @@ impl Plan {
 fn can_act(joint: &Joint, world: &World) -> bool {
     let movable = |end: u32| world.bodies.inverse_mass.get(end as usize).is_some_and(|w| *w > 0.0);
     (movable(joint.a) || movable(joint.b)) && (joint.form.stiffness > 0.0 || joint.form.damping > 0.0)
+}
+
+/// The body that the mouse holds off its centre, if it can turn.
+fn turned_by_mouse(world: &World) -> Option<Id> {
+    world.grip.filter(|grip| grip.local != DVec2::ZERO).map(|grip| grip.body)
 }
 
 fn count(world: &World, which: impl Fn(&Kind) -> bool) -> usize {

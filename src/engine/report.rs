@@ -62,7 +62,19 @@ pub struct StepReport {
     pub broad_phase_builds: u32,
     /// Impacts with restitution, summed over the substeps.
     pub impacts: usize,
+    /// Substeps of what can touch; 0 if all is carried by islands.
     pub substeps: u32,
+    /// Steps of islands carried whole, the largest number of one island, and those taken back, all islands together.
+    pub island_steps: u32,
+    pub retries: u32,
+    /// Highest order of a Taylor step.
+    pub order: u32,
+    /// Estimate of the local error of this step, in parts of an island's size; 0 if nothing estimates it.
+    pub local_error: f64,
+    /// Rows that depend on others and were dropped.
+    pub redundant: usize,
+    /// Islands that could not be carried to the accuracy in this step and went through the substeps instead.
+    pub given_up: usize,
     /// Sweeps of the solver, summed over the substeps.
     pub iterations: u32,
     /// Largest change of a row's velocity (PGS, [m/s]) or of a constraint's value (projection, [m]) in the last sweep.

@@ -37,7 +37,8 @@ impl State {
     }
 
     /// Copies the world in; `spin` says whether rotations are needed. Reuses its memory.
-    pub fn load(&mut self, world: &World, spin: bool) {
+    /// Bodies `elsewhere` are carried by their islands and stand still here.
+    pub fn load(&mut self, world: &World, spin: bool, elsewhere: &[bool]) {
         let bodies = &world.bodies;
         self.position.clone_from(&bodies.position);
         self.position.push(DVec2::ZERO);
@@ -53,6 +54,11 @@ impl State {
             if !self.moves[i] && led != Some(bodies.id[i]) {
                 *velocity = DVec2::ZERO;
             }
+        }
+        for (i, _) in elsewhere.iter().enumerate().filter(|(_, carried)| **carried) {
+            self.inverse_mass[i] = 0.0;
+            self.moves[i] = false;
+            self.velocity[i] = DVec2::ZERO;
         }
         self.load_rotations(world, if spin { bodies.len() + 1 } else { 0 });
     }

@@ -5,6 +5,7 @@ use super::collide::{BroadPhase, find_contacts};
 use super::constraint::grip::lead_static;
 use super::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use super::integrate::{self, Forces, Scene, add_spring_forces};
+use super::island::Islands;
 use super::plan::Plan;
 use super::report::{Divergence, Stage, StepReport};
 use super::solve::feedback::feed_back;
@@ -26,6 +27,10 @@ use std::mem::swap;
 pub struct Stepper {
     method: Method,
     plan: Plan,
+    /// The plan for steps in which some islands are given up.
+    fallback: Plan,
+    /// The islands given up in the last step.
+    given_up: Vec<usize>,
     clock: Option<fn() -> u64>,
     state: State,
     forces: Forces,
@@ -33,6 +38,7 @@ pub struct Stepper {
     contacts: Vec<Contact>,
     old_contacts: Vec<Contact>,
     impacts: Impacts,
+    islands: Islands,
     pgs: Pgs,
     projection: Projection,
     /// Multipliers by constraint, and the grip's [N].
@@ -72,6 +78,7 @@ impl Stepper {
     pub fn plan(&mut self, world: &World) -> &Plan {
         if !self.plan.fits(world, &self.method) {
             self.plan.derive(world, &self.method);
+            self.islands.build(world, &self.plan);
             self.broad.reset();
         }
         &self.plan
@@ -81,31 +88,54 @@ impl Stepper {
     pub fn step(&mut self, world: &mut World) -> StepReport {
         let mut laps = Laps::start(self.clock);
         self.plan(world);
-        self.load(world);
-        let mut report = StepReport { substeps: self.method.substeps, ..StepReport::default() };
-        for substep in 0..self.method.substeps {
-            if self.plan.spin {
-                self.substep::<true>(world, &mut report, &mut laps);
-            } else {
-                self.substep::<false>(world, &mut report, &mut laps);
-            }
-            if let Some(divergence) = self.find_divergence(world, substep) {
-                report.divergence = Some(divergence);
-                break;
-            }
+        let mut report = StepReport::default();
+        self.islands.advance(world, self.method.step_seconds(), &mut report);
+        let falls_back = report.given_up > 0;
+        if falls_back {
+            self.fallback.leave_out(world, &self.method, self.islands.given_up());
+            swap(&mut self.plan, &mut self.fallback);
+        }
+        if self.given_up != self.islands.given_up() {
+            self.given_up.clear();
+            self.given_up.extend_from_slice(self.islands.given_up());
+            self.broad.reset();
+        }
+        laps.end(Stage::Solve);
+        if self.plan.rest {
+            self.substeps(world, &mut report, &mut laps);
         }
         if report.divergence.is_none() {
             self.store(world);
         }
         laps.end(Stage::Update);
         self.fill_report(world, &laps, &mut report);
+        if falls_back {
+            swap(&mut self.plan, &mut self.fallback);
+        }
         report
+    }
+
+    /// The substeps of all that is not carried by an island.
+    fn substeps(&mut self, world: &World, report: &mut StepReport, laps: &mut Laps) {
+        self.load(world);
+        report.substeps = self.method.substeps;
+        for substep in 0..self.method.substeps {
+            if self.plan.spin {
+                self.substep::<true>(world, report, laps);
+            } else {
+                self.substep::<false>(world, report, laps);
+            }
+            if let Some(divergence) = self.find_divergence(world, substep) {
+                report.divergence = Some(divergence);
+                break;
+            }
+        }
     }
 
     /// One substep, as in the textbook loop.
     fn substep<const SPIN: bool>(&mut self, world: &World, report: &mut StepReport, laps: &mut Laps) {
         let h = self.method.substep_seconds();
-        let Method { integrator, solver, .. } = self.method;
+        let (integrator, solver) = (self.plan.integrator, self.method.solver);
         lead_static(world, &mut self.state, h);
         // A projection acts on predicted positions, so its contacts are found before anything moves.
         let early = solver == Solver::Projection && integrate::drifts_first(integrator);
@@ -176,7 +206,7 @@ impl Stepper {
         Planes::part_overlaps(&mut self.pgs.contacts, &self.start, &mut self.state, self.method.baumgarte);
         self.start.clone_from(&self.state.position);
         if self.plan.restitution {
-            let Method { solver, integrator, .. } = self.method;
+            let (integrator, solver) = (self.plan.integrator, self.method.solver);
             let only_short_shifts = solver == Solver::Pgs && integrate::drifts_first(integrator);
             report.impacts += self.impacts.resolve::<SPIN>(
                 &mut self.pgs.contacts,
@@ -244,8 +274,8 @@ impl Stepper {
     }
 
     fn task(&self, h: f64) -> Task {
-        let Method { integrator, iterations, warm_start, .. } = self.method;
-        let share = if integrate::kicks_again(integrator) { 0.5 } else { 1.0 };
+        let Method { iterations, warm_start, .. } = self.method;
+        let share = if integrate::kicks_again(self.plan.integrator) { 0.5 } else { 1.0 };
         Task { h, iterations, warm_start, share }
     }
 
@@ -265,7 +295,7 @@ impl Stepper {
     }
 
     fn load(&mut self, world: &World) {
-        self.state.load(world, self.plan.spin);
+        self.state.load(world, self.plan.spin, &self.plan.in_island);
         self.contacts.clone_from(&world.contacts);
         self.force.clone_from(&world.constraints.force);
         self.grip_force = world.grip.map_or(DVec2::ZERO, |grip| grip.force);
@@ -276,12 +306,15 @@ impl Stepper {
     }
 
     fn store(&self, world: &mut World) {
-        self.state.store(world);
-        world.contacts.clone_from(&self.contacts);
-        world.constraints.force.copy_from_slice(&self.force);
-        if let Some(grip) = &mut world.grip {
-            grip.force = self.grip_force;
+        if self.plan.rest {
+            self.state.store(world);
+            world.contacts.clone_from(&self.contacts);
+            world.constraints.force.copy_from_slice(&self.force);
+            if let Some(grip) = &mut world.grip {
+                grip.force = self.grip_force;
+            }
         }
+        self.islands.store(world, self.method.step_seconds());
         world.advance_clock(self.method.hz);
     }
 

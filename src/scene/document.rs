@@ -93,6 +93,8 @@ pub struct Settings {
     pub solver: Solver,
     pub warm_start: bool,
     pub baumgarte: f64,
+    pub automatic: bool,
+    pub accuracy: f64,
 }
 
 impl Default for Settings {
@@ -104,14 +106,30 @@ impl Default for Settings {
 impl Settings {
     /// Settings made of a world's and a method's parts.
     pub fn new(gravity: DVec2, drag: f64, tuning: Tuning, method: &Method) -> Settings {
-        let Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte } = *method;
-        Settings { gravity, drag, tuning, hz, substeps, iterations, integrator, solver, warm_start, baumgarte }
+        let Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, accuracy } =
+            *method;
+        Settings {
+            gravity,
+            drag,
+            tuning,
+            hz,
+            substeps,
+            iterations,
+            integrator,
+            solver,
+            warm_start,
+            baumgarte,
+            automatic,
+            accuracy,
+        }
     }
 
     /// The part that says how the world is stepped.
     pub fn method(&self) -> Method {
-        let Settings { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, .. } = *self;
-        Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte }
+        let Settings {
+            hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, accuracy, ..
+        } = *self;
+        Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, accuracy }
     }
 }
 

@@ -125,6 +125,15 @@ const BAUMGARTE: Number = Number {
     decimals: 2,
 };
 
+const ACCURACY: Number = Number {
+    name: "Accuracy",
+    unit: "",
+    range: 1e-14..=1e-2,
+    help: "Wanted error after a second or so, in parts of an island's size: 1e-3 is quick, 1e-12 is round-off.",
+    logarithmic: true,
+    decimals: 0,
+};
+
 /// One line on an integrator.
 pub fn integrator_help(integrator: Integrator) -> &'static str {
     match integrator {
@@ -137,6 +146,9 @@ pub fn integrator_help(integrator: Integrator) -> &'static str {
         Integrator::PositionVerlet => "Half a drift, a kick, half a drift. Order 2, symplectic; one force evaluation.",
         Integrator::VelocityVerlet => {
             "Half a kick, a drift, half a kick. Order 2, symplectic; velocities and positions at the same instant."
+        }
+        Integrator::Taylor => {
+            "Whole islands that nothing can touch, to the accuracy below: series of high order, constraints solved exactly."
         }
     }
 }
@@ -200,7 +212,13 @@ fn overriding(ui: &mut Ui, number: &Number, value: &mut Option<f64>, first: f64)
 
 fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Command>) {
     let mut method = frame.method;
-    let mut changed = step_length(ui, &mut method, &defaults.method);
+    let help = "The plan chooses how islands that nothing can touch are carried, for the accuracy wanted. What can touch is \
+                stepped as set below.";
+    let mut changed = widgets::switch(ui, "By accuracy", &mut method.automatic, Some(defaults.method.automatic), help);
+    if method.automatic || method.integrator.is_direct() {
+        changed |= widgets::slider(ui, &ACCURACY, &mut method.accuracy, Some(defaults.method.accuracy)).changed;
+    }
+    changed |= step_length(ui, &mut method, &defaults.method);
     changed |= widgets::whole_slider(ui, &SUBSTEPS, &mut method.substeps, Some(defaults.method.substeps)).changed;
     changed |= widgets::whole_slider(ui, &ITERATIONS, &mut method.iterations, Some(defaults.method.iterations)).changed;
     changed |= kinds(ui, &mut method, &defaults.method);

@@ -3,3 +3,4 @@
 mod closed_form;
 mod reference;
 mod stored;
+mod taylor;

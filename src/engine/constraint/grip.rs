@@ -4,6 +4,7 @@
 //! Solved implicitly with the velocities: (K + γ) λ = −(J v + bias), λ then scaled back to the disc |λ| ≤ h f_max.
 //! K = w 1 + (1/I) ( r_y², −r_x r_y; −r_x r_y, r_x² ).
 
+use super::Grip;
 use crate::engine::body::Motion;
 use crate::engine::state::State;
 use crate::engine::world::World;
@@ -96,15 +97,29 @@ impl GripRows {
 pub(crate) fn lead_static(world: &World, state: &mut State, h: f64) {
     let Some(grip) = world.grip.as_ref() else { return };
     let Some(body) = world.bodies.index_of(grip.body) else { return };
-    if world.bodies.motion[body] != Motion::Static {
-        return;
+    if world.bodies.motion[body] == Motion::Static {
+        let error = state.position[body] + world.arm(body, grip.local) - grip.target;
+        state.velocity[body] = led(grip, error, state.velocity[body], h);
+        state.moves[body] = true;
     }
+}
+
+/// Velocity with which static body `body` is led for the next `h` seconds [m/s]; zero if it is not held.
+pub(crate) fn led_velocity(world: &World, body: usize, h: f64) -> DVec2 {
+    match world.grip.as_ref().filter(|grip| grip.body == world.bodies.id[body]) {
+        Some(grip) => {
+            let error = world.to_world(body, grip.local) - grip.target;
+            led(grip, error, world.bodies.velocity[body], h)
+        }
+        None => DVec2::ZERO,
+    }
+}
+
+/// Implicit Euler of v' = −ω² error − 2 ζ ω v.
+fn led(grip: &Grip, error: DVec2, velocity: DVec2, h: f64) -> DVec2 {
     let omega = TAU * grip.frequency;
-    let error = state.position[body] + world.arm(body, grip.local) - grip.target;
-    // Implicit Euler of v' = −ω² error − 2 ζ ω v.
     let slowed = 1.0 + 2.0 * grip.damping_ratio * omega * h + omega * omega * h * h;
-    state.velocity[body] = (state.velocity[body] - h * omega * omega * error) / slowed;
-    state.moves[body] = true;
+    (velocity - h * omega * omega * error) / slowed
 }
 
 /// `v`, shortened to `longest` if it is longer.

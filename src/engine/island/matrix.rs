@@ -1,0 +1,130 @@
+//! A = J M⁻¹ Jᵀ of an island, filled in place and factored by the sparse LDLᵀ.
+//!
+//! Two rods r, s that share a node of inverse mass w are coupled by ± w d_r·d_s: plus where the node is the same end of both.
+//! The row of a slack rope is 1 on the diagonal and nothing else, so its λ is 0 and the pattern stays.
+
+use super::Nodes;
+use super::system::{Pins, Rods};
+use crate::engine::linalg::sparse::{Ldl, Pivots, Summary};
+
+/// Two rods with a common node.
+#[derive(Clone, Copy, Debug)]
+struct RodRod {
+    slot: u32,
+    r: u32,
+    s: u32,
+    /// ± inverse mass of the node [1/kg].
+    weight: f64,
+}
+
+/// A rod and a pin with a common node: a 2 × 1 block, or 1 × 2 if it is stored transposed, which is the same two numbers.
+#[derive(Clone, Copy, Debug)]
+struct RodPin {
+    slot: u32,
+    r: u32,
+    weight: f64,
+}
+
+/// The matrix of one island.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Matrix {
+    ldl: Ldl,
+    pub summary: Summary,
+    pub pivots: Pivots,
+    /// Slots of the rods' diagonals and w_a + w_b.
+    diagonal: Vec<(u32, f64)>,
+    /// The same of the pins, 2 × 2 blocks.
+    pin_diagonal: Vec<(u32, f64)>,
+    rod_rod: Vec<RodRod>,
+    rod_pin: Vec<RodPin>,
+    /// Diagonal blocks ± w 1 of two pins with a common node.
+    pin_pin: Vec<(u32, f64)>,
+}
+
+impl Matrix {
+    pub fn new(nodes: &Nodes, rods: &Rods, pins: &Pins) -> Matrix {
+        let mut matrix = Matrix::default();
+        let sizes: Vec<u8> = rods.a.iter().map(|_| 1).chain(pins.a.iter().map(|_| 2)).collect();
+        let ends = || rods.a.iter().zip(&rods.b).chain(pins.a.iter().zip(&pins.b));
+        // By node: the rows that meet there, with the sign of the node's end.
+        let mut at_node: Vec<Vec<(u32, f64)>> = vec![Vec::new(); nodes.len()];
+        for (k, (a, b)) in ends().enumerate() {
+            for (node, sign) in [(*a, -1.0), (*b, 1.0)] {
+                if nodes.w[node as usize] > 0.0 {
+                    at_node[node as usize].push((k as u32, sign));
+                }
+            }
+        }
+        let mut pairs = Vec::new();
+        let mut weights = Vec::new();
+        for (node, meeting) in at_node.iter().enumerate() {
+            for (i, (r, sign_r)) in meeting.iter().enumerate() {
+                for (s, sign_s) in &meeting[i + 1..] {
+                    // Both ends of one constraint on one node would be refused by the world.
+                    pairs.push((*r, *s));
+                    weights.push(sign_r * sign_s * nodes.w[node]);
+                }
+            }
+        }
+        matrix.summary = matrix.ldl.analyse(&sizes, &pairs);
+        let sum = |a: u32, b: u32| nodes.w[a as usize] + nodes.w[b as usize];
+        for (k, (a, b)) in ends().enumerate() {
+            let entry = (matrix.ldl.diagonal_slot(k) as u32, sum(*a, *b));
+            if k < rods.a.len() { matrix.diagonal.push(entry) } else { matrix.pin_diagonal.push(entry) }
+        }
+        for (p, ((r, s), weight)) in pairs.iter().zip(weights).enumerate() {
+            let slot = matrix.ldl.pair_slot(p).0 as u32;
+            let is_pin = |k: u32| k as usize >= rods.a.len();
+            match (is_pin(*r), is_pin(*s)) {
+                (false, false) => matrix.rod_rod.push(RodRod { slot, r: *r, s: *s, weight }),
+                (false, true) => matrix.rod_pin.push(RodPin { slot, r: *r, weight }),
+                (true, false) => matrix.rod_pin.push(RodPin { slot, r: *s, weight }),
+                (true, true) => matrix.pin_pin.push((slot, weight)),
+            }
+        }
+        matrix
+    }
+
+    /// Fills in the values for differences d of the rods, and factors.
+    pub fn factor(&mut self, rods: &Rods, dx: &[f64], dy: &[f64]) {
+        let ropes = rods.first_rope < rods.a.len();
+        let values = self.ldl.values_mut();
+        values.fill(0.0);
+        for (((slot, weight), dx), dy) in self.diagonal.iter().zip(dx).zip(dy) {
+            values[*slot as usize] = weight * (dx * dx + dy * dy);
+        }
+        for RodRod { slot, r, s, weight } in &self.rod_rod {
+            let (r, s) = (*r as usize, *s as usize);
+            if !ropes || (rods.held[r] && rods.held[s]) {
+                values[*slot as usize] += weight * (dx[r] * dx[s] + dy[r] * dy[s]);
+            }
+        }
+        for r in rods.first_rope..rods.a.len() {
+            if !rods.held[r] {
+                values[self.diagonal[r].0 as usize] = 1.0;
+            }
+        }
+        for (slot, weight) in &self.pin_diagonal {
+            values[*slot as usize] = *weight;
+            values[*slot as usize + 3] = *weight;
+        }
+        for RodPin { slot, r, weight } in &self.rod_pin {
+            let (r, slot) = (*r as usize, *slot as usize);
+            if rods.held[r] {
+                values[slot] += weight * dx[r];
+                values[slot + 1] += weight * dy[r];
+            }
+        }
+        for (slot, weight) in &self.pin_pin {
+            values[*slot as usize] += weight;
+            values[*slot as usize + 3] += weight;
+        }
+        self.pivots = self.ldl.factor();
+    }
+
+    /// Solves A x = b in place: rods, then two rows a pin.
+    #[inline]
+    pub fn solve(&mut self, b: &mut [f64]) {
+        self.ldl.solve(b);
+    }
+}

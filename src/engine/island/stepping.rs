@@ -1,0 +1,87 @@
+//! Carries all islands of a plan through a step.
+
+use super::System;
+use crate::engine::body::NO_ROTOR;
+use crate::engine::constraint::WORLD;
+use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
+use crate::engine::integrate::taylor::Taylor;
+use crate::engine::plan::{IslandPlan, Plan};
+use crate::engine::report::StepReport;
+use crate::engine::world::World;
+
+/// The islands of a plan, and the scratch memory that they share.
+#[derive(Debug, Default)]
+pub(crate) struct Islands {
+    islands: Vec<(IslandPlan, System)>,
+    taylor: Taylor,
+    /// Indices of the islands that could not be carried in this step, ascending.
+    given_up: Vec<usize>,
+}
+
+impl Islands {
+    /// Makes the islands of `plan` anew.
+    pub fn build(&mut self, world: &World, plan: &Plan) {
+        self.islands.clear();
+        self.given_up.clear();
+        for plan in &plan.islands {
+            let system = System::new(world, &plan.group.bodies, &plan.group.constraints);
+            self.islands.push((plan.clone(), system));
+        }
+    }
+
+    /// Carries all islands through `time` [s], without touching the world. Those whose equations cannot be solved to the
+    /// tolerance (contradicting constraints, springs too stiff to be followed in real time) are given up for this step.
+    pub fn advance(&mut self, world: &World, time: f64, report: &mut StepReport) {
+        self.given_up.clear();
+        for (index, (plan, system)) in self.islands.iter_mut().enumerate() {
+            system.load(world, time);
+            let outcome = self.taylor.advance(system, time, plan.tolerance * system.length);
+            report.retries += outcome.retries;
+            if outcome.failed || !in_range(system) {
+                self.given_up.push(index);
+                continue;
+            }
+            report.island_steps = report.island_steps.max(outcome.steps);
+            report.order = report.order.max(outcome.order);
+            report.local_error = report.local_error.max(outcome.error / system.length);
+            report.redundant += system.matrix.pivots.dropped;
+        }
+        report.given_up = self.given_up.len();
+    }
+
+    /// Islands that the last [`Islands::advance`] gave up, by index in the plan, ascending.
+    pub fn given_up(&self) -> &[usize] {
+        &self.given_up
+    }
+
+    /// Writes the islands back, but for those given up; what turns freely turns on for `time` [s].
+    pub fn store(&self, world: &mut World, time: f64) {
+        let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
+        for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
+            system.store(world);
+            for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
+                let rotor = world.bodies.rotor[*body as usize];
+                if rotor != NO_ROTOR && world.bodies.inverse_mass[*body as usize] > 0.0 {
+                    let (decay, rotors) = (system.drag, &mut world.bodies.rotors);
+                    let omega = rotors.omega[rotor as usize];
+                    // ω' = −drag ω
+                    let kept = libm::exp(-decay * time);
+                    let mean = if decay > 0.0 { -libm::expm1(-decay * time) / decay } else { time };
+                    rotors.angle[rotor as usize] += omega * mean;
+                    rotors.omega[rotor as usize] = omega * kept;
+                }
+            }
+        }
+    }
+}
+
+/// Whether all nodes are where numbers mean something.
+fn in_range(system: &System) -> bool {
+    let nodes = &system.nodes;
+    // Written so that a NaN is out of range.
+    let within = |values: &[f64], most: f64| values.iter().all(|value| value.abs() <= most);
+    within(&nodes.x, LARGEST_COORDINATE)
+        && within(&nodes.y, LARGEST_COORDINATE)
+        && within(&nodes.vx, LARGEST_SPEED)
+        && within(&nodes.vy, LARGEST_SPEED)
+}
