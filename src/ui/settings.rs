@@ -233,6 +233,14 @@ fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Co
     if !frame.plan.is_empty() {
         widgets::note(ui, &frame.plan);
     }
+    if frame.report.given_up > 0 {
+        let islands = format::count(frame.report.given_up);
+        let note = format!(
+            "Islands left to the substeps in this step: {islands}. No position meets all their lengths, or their springs ask \
+             for more than 1000 steps a frame."
+        );
+        widgets::note(ui, &note);
+    }
 }
 
 /// Rate and length of a step: the same number twice, as people think of either.
