@@ -140,6 +140,17 @@ fn undo_and_redo_restore_the_exact_state() {
 }
 
 #[test]
+fn the_choice_by_accuracy_reaches_the_simulation_and_is_undone_by_name() {
+    let session = start(World::new());
+    let by_accuracy = Method { automatic: true, ..session.frame().method };
+    session.send(Command::Method(by_accuracy));
+    let chosen = wait_for(&session, "by accuracy", |f| f.method.automatic);
+    assert_eq!(chosen.undo.as_deref(), Some("Change choice by accuracy"));
+    session.send(Command::Method(Method { accuracy: 1e-9, ..by_accuracy }));
+    wait_for(&session, "a finer one", |f| f.method.accuracy == 1e-9);
+}
+
+#[test]
 fn a_change_of_a_setting_is_undone_as_one_and_by_its_name() {
     let mut world = World::new();
     let ball = add(&mut world, v(0.1, 0.2));

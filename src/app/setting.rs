@@ -7,23 +7,28 @@ const SEVERAL: &str = "settings";
 
 /// Which part of a method is another one; `None` if both are the same.
 pub fn method(from: &Method, to: &Method) -> Option<&'static str> {
+    // All fields by name, so that a new one cannot be left out.
+    let Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, accuracy } = *from;
     one_of(&[
-        (from.hz != to.hz, "step rate"),
-        (from.substeps != to.substeps, "substeps"),
-        (from.iterations != to.iterations, "iterations"),
-        (from.integrator != to.integrator, "integrator"),
-        (from.solver != to.solver, "constraint solver"),
-        (from.warm_start != to.warm_start, "warm starting"),
-        (from.baumgarte != to.baumgarte, "Baumgarte factor"),
+        (hz != to.hz, "step rate"),
+        (substeps != to.substeps, "substeps"),
+        (iterations != to.iterations, "iterations"),
+        (integrator != to.integrator, "integrator"),
+        (solver != to.solver, "constraint solver"),
+        (warm_start != to.warm_start, "warm starting"),
+        (baumgarte != to.baumgarte, "Baumgarte factor"),
+        (automatic != to.automatic, "choice by accuracy"),
+        (accuracy != to.accuracy, "accuracy"),
     ])
 }
 
 /// Which part of a tuning is another one; `None` if both are the same.
 pub fn tuning(from: &Tuning, to: &Tuning) -> Option<&'static str> {
+    let Tuning { stiffness, restitution, friction } = *from;
     one_of(&[
-        (from.stiffness != to.stiffness, "stiffness"),
-        (from.restitution != to.restitution, "restitution"),
-        (from.friction != to.friction, "friction"),
+        (stiffness != to.stiffness, "stiffness"),
+        (restitution != to.restitution, "restitution"),
+        (friction != to.friction, "friction"),
     ])
 }
 
