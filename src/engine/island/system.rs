@@ -147,6 +147,16 @@ impl System {
     /// Reads the bodies, and the hold if it is on one of them. `h` is the length of the step to come [s].
     pub fn load(&mut self, world: &World, h: f64) {
         self.nodes.load(world, h);
+        // The multipliers are where iterations begin: from the world, so that a fresh stepper goes on with the same bits.
+        let force = &world.constraints.force;
+        for ((lambda, constraint), square) in
+            self.rods.lambda.iter_mut().zip(&self.rods.constraint).zip(&self.rods.square)
+        {
+            *lambda = force[*constraint as usize].x / square.sqrt();
+        }
+        for (lambda, constraint) in self.pins.lambda.iter_mut().zip(&self.pins.constraint) {
+            *lambda = force[*constraint as usize];
+        }
         self.held = Held::of(world, &self.nodes);
     }
 
