@@ -50,7 +50,7 @@ pub(crate) struct System {
     /// [1/s]
     pub drag: f64,
     pub held: Option<Held>,
-    /// Size of the island [m]: errors are measured in parts of it.
+    /// Size of the island at the start of the step [m]: errors are measured in parts of it.
     pub length: f64,
     pub matrix: Matrix,
     /// d = x_b − x_a of the rods, at the positions that the matrix was filled for.
@@ -78,7 +78,6 @@ impl System {
         (system.dx, system.dy) = (vec![0.0; rows], vec![0.0; rows]);
         system.rhs = vec![0.0; rows + 2 * system.pins.a.len()];
         system.matrix = Matrix::new(&system.nodes, &system.rods, &system.pins);
-        system.length = system.measure();
         system
     }
 
@@ -158,6 +157,7 @@ impl System {
             *lambda = force[*constraint as usize];
         }
         self.held = Held::of(world, &self.nodes);
+        self.length = self.measure();
     }
 
     /// Writes the bodies and the multipliers back.
