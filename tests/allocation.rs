@@ -2,7 +2,7 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, Ordering};
-use tautline::engine::{Method, Solver, Stepper, World};
+use tautline::engine::{Integrator, Method, Solver, Stepper, World};
 use tautline::scene;
 
 /// The system's allocator, counting.
@@ -31,10 +31,10 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 /// Allocations in 100 steps of a shipped scene after `warm_up` steps.
-fn allocations(name: &str, solver: Solver, warm_up: u32) -> u64 {
+fn allocations(name: &str, change: impl Fn(Method) -> Method, warm_up: u32) -> u64 {
     let setup = scene::open(name).unwrap();
     let mut world: World = setup.world;
-    let mut stepper = Stepper::new(Method { solver, ..setup.method }).unwrap();
+    let mut stepper = Stepper::new(change(setup.method)).unwrap();
     (0..warm_up).for_each(|_| drop(stepper.step(&mut world)));
     let before = ALLOCATIONS.load(Ordering::Relaxed);
     (0..100).for_each(|_| drop(stepper.step(&mut world)));
@@ -58,9 +58,15 @@ fn a_warm_step_allocates_nothing() {
     for (name, warm_up) in scenes {
         // The pile once, as it takes a while to come to rest.
         for solver in Solver::ALL.into_iter().filter(|solver| name != "pile" || *solver == Solver::Pgs) {
-            let found = allocations(name, solver, warm_up);
+            let found = allocations(name, |method| Method { solver, ..method }, warm_up);
             println!("{name}, {}: {found} allocations in 100 warm steps", solver.name());
             assert_eq!(found, 0, "{name}, {}", solver.name());
+        }
+    }
+    for name in ["truth/bridge", "truth/cloth", "truth/stiff_chain", "truth/rigid_net"] {
+        for integrator in [Integrator::Taylor, Integrator::EnergyMomentum] {
+            let found = allocations(name, |method| Method { integrator, ..method }, 10);
+            assert_eq!(found, 0, "{name}, {}", integrator.name());
         }
     }
 }

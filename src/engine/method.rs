@@ -17,16 +17,19 @@ pub enum Integrator {
     VelocityVerlet,
     /// Taylor series of adaptive order and step, for islands that nothing can touch.
     Taylor,
+    /// Implicit midpoint with discrete gradients, for islands that nothing can touch: order 2, keeps energy and momenta.
+    EnergyMomentum,
 }
 
 impl Integrator {
     /// All of them, in the order in which they are listed to a user.
-    pub const ALL: [Integrator; 5] = [
+    pub const ALL: [Integrator; 6] = [
         Integrator::ExplicitEuler,
         Integrator::SemiImplicitEuler,
         Integrator::PositionVerlet,
         Integrator::VelocityVerlet,
         Integrator::Taylor,
+        Integrator::EnergyMomentum,
     ];
 
     /// Those that go through the substep loop, with a solver.
@@ -45,6 +48,7 @@ impl Integrator {
             Integrator::PositionVerlet => "Position Verlet",
             Integrator::VelocityVerlet => "Velocity Verlet",
             Integrator::Taylor => "Taylor series",
+            Integrator::EnergyMomentum => "Energy–momentum midpoint",
         }
     }
 
@@ -56,13 +60,14 @@ impl Integrator {
             Integrator::PositionVerlet => "position-verlet",
             Integrator::VelocityVerlet => "velocity-verlet",
             Integrator::Taylor => "taylor",
+            Integrator::EnergyMomentum => "energy-momentum",
         }
     }
 
     /// Whether it carries a whole island at once, its constraints solved exactly, instead of taking a solver. What can touch
     /// is then stepped with [`Integrator::OF_CONTACTS`].
     pub fn is_direct(self) -> bool {
-        matches!(self, Integrator::Taylor)
+        matches!(self, Integrator::Taylor | Integrator::EnergyMomentum)
     }
 
     /// The integrator of what can touch, where the chosen one takes no contacts.

@@ -64,6 +64,8 @@ pub(crate) struct IslandPlan {
     pub integrator: Integrator,
     /// Local error allowed in a step, in parts of the island's size.
     pub tolerance: f64,
+    /// Steps within a step of the world, where the integrator does not find them itself.
+    pub steps: u32,
 }
 
 impl Plan {
@@ -115,8 +117,9 @@ impl Plan {
         for (index, group) in smooth.into_iter().enumerate() {
             if self.without.binary_search(&index).is_err() {
                 group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
-                let integrator = Integrator::Taylor;
-                self.islands.push(IslandPlan { group, integrator, tolerance: LOCAL * method.accuracy });
+                let integrator = integrator_of(world, method, &group);
+                let (tolerance, steps) = (LOCAL * method.accuracy, method.substeps);
+                self.islands.push(IslandPlan { group, integrator, tolerance, steps });
             }
         }
         let bodies = &world.bodies;
@@ -227,7 +230,16 @@ impl Plan {
         let mut sentence = parts.join(", ");
         if !self.islands.is_empty() {
             let islands = plural(self.islands.len(), "island");
-            let _ = write!(sentence, "; {islands} by Taylor series to {:.0e}, solved directly", method.accuracy);
+            let midpoint = self.islands.iter().filter(|island| island.integrator == Integrator::EnergyMomentum).count();
+            let _ = match midpoint {
+                0 => write!(sentence, "; {islands} by Taylor series to {:.0e}, solved directly", method.accuracy),
+                _ => write!(
+                    sentence,
+                    "; {} by the energy–momentum midpoint rule, {} a step, solved directly",
+                    plural(midpoint, "island"),
+                    plural(method.substeps as usize, "substep"),
+                ),
+            };
         }
         sentence.push_str(if self.spin { "; rotations" } else { "; particles only" });
         sentence.push_str(match (self.contacts, self.restitution) {
@@ -246,6 +258,13 @@ impl Plan {
         }
         sentence
     }
+}
+
+/// How an island is carried. Ropes that tighten and slacken need events, which only the series has.
+fn integrator_of(world: &World, method: &Method, group: &Group) -> Integrator {
+    let is_rope = |i: &u32| matches!(world.constraints.kind[*i as usize], Kind::Rope { .. });
+    let midpoint = method.integrator == Integrator::EnergyMomentum && !method.automatic;
+    if midpoint && !group.constraints.iter().any(is_rope) { Integrator::EnergyMomentum } else { Integrator::Taylor }
 }
 
 /// Whether a row can move anything: something dynamic hangs on it, and it is not an empty spring.

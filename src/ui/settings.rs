@@ -150,6 +150,9 @@ pub fn integrator_help(integrator: Integrator) -> &'static str {
         Integrator::Taylor => {
             "Whole islands that nothing can touch, to the accuracy below: series of high order, constraints solved exactly."
         }
+        Integrator::EnergyMomentum => {
+            "Whole islands that nothing can touch, one or more solves a step. Order 2; keeps energy and both momenta exactly."
+        }
     }
 }
 

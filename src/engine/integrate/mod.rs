@@ -4,6 +4,7 @@
 //! The order stated is that of smooth motion under forces; what constraints add is the solver's error. Drag is split off
 //! and decays the velocity exactly (Strang splitting in the second-order methods).
 
+pub(crate) mod energy_momentum;
 mod explicit_euler;
 mod forces;
 mod position_verlet;
@@ -35,7 +36,7 @@ pub(crate) fn begin(integrator: Integrator, scene: &Scene, state: &mut State, fo
         Integrator::SemiImplicitEuler => semi_implicit_euler::begin(scene, state, forces),
         Integrator::PositionVerlet => position_verlet::begin(scene, state, forces),
         Integrator::VelocityVerlet => velocity_verlet::begin(scene, state, forces),
-        Integrator::Taylor => unreachable!("the plan gives contacts another integrator"),
+        Integrator::Taylor | Integrator::EnergyMomentum => unreachable!("the plan gives contacts another integrator"),
     }
 }
 

@@ -1,9 +1,11 @@
 //! Carries all islands of a plan through a step.
 
 use super::System;
+use crate::engine::Integrator;
 use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
+use crate::engine::integrate::energy_momentum::EnergyMomentum;
 use crate::engine::integrate::taylor::Taylor;
 use crate::engine::plan::{IslandPlan, Plan};
 use crate::engine::report::StepReport;
@@ -14,6 +16,8 @@ use crate::engine::world::World;
 pub(crate) struct Islands {
     islands: Vec<(IslandPlan, System)>,
     taylor: Taylor,
+    /// By island: it keeps the order in which the island is eliminated.
+    energy_momentum: Vec<EnergyMomentum>,
     /// Indices of the islands that could not be carried in this step, ascending.
     given_up: Vec<usize>,
 }
@@ -23,6 +27,8 @@ impl Islands {
     pub fn build(&mut self, world: &World, plan: &Plan) {
         self.islands.clear();
         self.given_up.clear();
+        self.energy_momentum.clear();
+        self.energy_momentum.resize_with(plan.islands.len(), EnergyMomentum::default);
         for plan in &plan.islands {
             let system = System::new(world, &plan.group.bodies, &plan.group.constraints);
             self.islands.push((plan.clone(), system));
@@ -35,7 +41,10 @@ impl Islands {
         self.given_up.clear();
         for (index, (plan, system)) in self.islands.iter_mut().enumerate() {
             system.load(world, time);
-            let outcome = self.taylor.advance(system, time, plan.tolerance * system.length);
+            let outcome = match plan.integrator {
+                Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, plan.steps),
+                _ => self.taylor.advance(system, time, plan.tolerance * system.length),
+            };
             report.retries += outcome.retries;
             if outcome.failed || !in_range(system) {
                 self.given_up.push(index);

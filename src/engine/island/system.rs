@@ -50,7 +50,7 @@ pub(crate) struct System {
     /// [1/s]
     pub drag: f64,
     pub held: Option<Held>,
-    /// Size of the island [m]: errors are measured in parts of it.
+    /// Size of the island at the start of the step [m]: errors are measured in parts of it.
     pub length: f64,
     pub matrix: Matrix,
     /// d = x_b − x_a of the rods, at the positions that the matrix was filled for.
@@ -78,7 +78,6 @@ impl System {
         (system.dx, system.dy) = (vec![0.0; rows], vec![0.0; rows]);
         system.rhs = vec![0.0; rows + 2 * system.pins.a.len()];
         system.matrix = Matrix::new(&system.nodes, &system.rods, &system.pins);
-        system.length = system.measure();
         system
     }
 
@@ -147,7 +146,18 @@ impl System {
     /// Reads the bodies, and the hold if it is on one of them. `h` is the length of the step to come [s].
     pub fn load(&mut self, world: &World, h: f64) {
         self.nodes.load(world, h);
+        // The multipliers are where iterations begin: from the world, so that a fresh stepper goes on with the same bits.
+        let force = &world.constraints.force;
+        for ((lambda, constraint), square) in
+            self.rods.lambda.iter_mut().zip(&self.rods.constraint).zip(&self.rods.square)
+        {
+            *lambda = force[*constraint as usize].x / square.sqrt();
+        }
+        for (lambda, constraint) in self.pins.lambda.iter_mut().zip(&self.pins.constraint) {
+            *lambda = force[*constraint as usize];
+        }
         self.held = Held::of(world, &self.nodes);
+        self.length = self.measure();
     }
 
     /// Writes the bodies and the multipliers back.
