@@ -241,6 +241,14 @@ impl Plan {
                 ),
             };
         }
+        if (method.automatic || method.integrator.is_direct()) && self.rest {
+            let bodies = (0..world.bodies.len()).filter(|i| !self.in_island[*i] && world.bodies.inverse_mass[*i] > 0.0);
+            let _ = match bodies.count() {
+                0 => Ok(()),
+                1 => sentence.write_str("; 1 body can touch or turn and goes through the substeps"),
+                n => write!(sentence, "; {n} bodies can touch or turn and go through the substeps"),
+            };
+        }
         sentence.push_str(if self.spin { "; rotations" } else { "; particles only" });
         sentence.push_str(match (self.contacts, self.restitution) {
             (false, _) => ", nothing can touch: no broad phase",

@@ -113,3 +113,14 @@ fn redundant_rods_are_dropped_and_contradictory_ones_given_up() {
     // No position meets both lengths: the island goes to the solver that settles between them, and the report says so.
     assert!(report.divergence.is_none() && report.given_up == 1 && world != before, "{report:?}");
 }
+
+#[test]
+fn the_plan_says_what_it_carries_and_what_it_leaves_to_the_substeps() {
+    let heavy = scene::open("heavy_rope").unwrap();
+    let mut stepper = Stepper::new(heavy.method).unwrap();
+    assert!(stepper.plan(&heavy.world).sentence().contains("1 island by Taylor series to 1e-9"));
+    let stack = scene::open("stack").unwrap();
+    let mut stepper = Stepper::new(by_accuracy(1e-9)).unwrap();
+    let sentence = stepper.plan(&stack.world).sentence().to_owned();
+    assert!(sentence.contains("10 bodies can touch or turn and go through the substeps"), "{sentence}");
+}
