@@ -287,3 +287,20 @@ fn what_has_no_truth_is_refused_with_advice() {
     std::fs::write(&disc, "(version: 1, truth: (seconds: 1, length: 1), bodies: [Disc()])").expect("a scene file");
     fails(&["truth", &disc], 1, "a disc that turns");
 }
+
+#[test]
+fn rows_more_often_than_steps_are_a_row_a_step() {
+    let csv = prints(&["run", "pendulum", "--seconds", "0.1", "--hz", "100", "--every", "1e-9", "--csv", "-"]);
+    assert_eq!(csv.lines().count(), 1 + 11, "a header, the start and ten steps");
+}
+
+#[test]
+fn one_file_under_two_names_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let one = folder.path().join("rows.csv");
+    let other = folder.path().join(".").join("rows.csv");
+    let (one, other) = (one.display().to_string(), other.display().to_string());
+    let output = tautline(&["run", "pendulum", "--seconds", "0.1", "--csv", &one, "--measures", &other]);
+    assert!(!output.status.success());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("are the same file"));
+}

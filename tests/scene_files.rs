@@ -142,6 +142,22 @@ fn assert_refused(path: &str, phrase: &str) {
 
 #[test]
 #[cfg(unix)]
+fn saving_through_a_link_keeps_the_link_and_the_files_permissions() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, link) = (folder.path().join("file.ron"), folder.path().join("link.ron"));
+    std::fs::write(&file, "old").expect("a file");
+    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o640)).expect("its owner may");
+    symlink(&file, &link).expect("a link");
+    let document = scene::capture(&scene::open("pendulum").expect("a shipped scene"));
+    scene::save(&link, &document).expect("room for a scene");
+    assert!(link.symlink_metadata().expect("the link").is_symlink());
+    assert!(scene::open(&file.display().to_string()).is_ok(), "the file behind the link is the scene");
+    assert_eq!(file.metadata().expect("the file").permissions().mode() & 0o777, 0o640);
+}
+
+#[test]
+#[cfg(unix)]
 fn a_device_or_a_pipe_is_refused_without_waiting_for_it() {
     assert_refused("/dev/zero", "a pipe or a device");
     let folder = tempfile::tempdir().expect("a folder");

@@ -105,8 +105,15 @@ pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
     }
     let setup = scene::open(&arguments.scene)?;
     let method = arguments.method(setup.method);
-    let sampling = Sampling { seconds: arguments.seconds, every: arguments.every.unwrap_or(method.step_seconds()) };
+    // There is nothing new between two steps.
+    let every = arguments.every.unwrap_or_default().max(method.step_seconds());
+    let sampling = Sampling { seconds: arguments.seconds, every };
     let mut trajectory = arguments.csv.as_deref().map(Output::create).transpose()?;
+    if let (Some(csv), Some(measures)) = (&arguments.csv, &arguments.measures)
+        && are_one_file(Path::new(csv), Path::new(measures))
+    {
+        anyhow::bail!("--csv {csv} and --measures {measures} are the same file: give one of them another name");
+    }
     let mut measures = arguments.measures.as_deref().map(Output::create).transpose()?;
     let mut rows = Rows {
         trajectory: trajectory.as_mut().map(|output| output as &mut dyn Write),
@@ -125,6 +132,14 @@ pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
         arguments.says(&format!("{:016x}", finish.world.hash()))?;
     }
     Ok(())
+}
+
+/// Whether both paths lead to the same regular file, which exists.
+fn are_one_file(one: &Path, other: &Path) -> bool {
+    match (one.canonicalize(), other.canonicalize()) {
+        (Ok(one), Ok(other)) => one == other && one.is_file(),
+        _ => false,
+    }
 }
 
 /// How long to run and when to write [s].

@@ -15,10 +15,17 @@ pub fn to_ron(document: &Document) -> String {
     text.expect("a document holds nothing that RON cannot write") + "\n"
 }
 
-/// Writes a document to `path`. The old file, if any, is replaced only when the new one is complete on disk.
+/// Writes a document to `path`. The old file, if any, is replaced only when the new one is complete on disk; it keeps its
+/// permissions, and a symbolic link stays one.
 pub fn save(path: &Path, document: &Document) -> Result<(), SceneError> {
-    let beside = beside(path);
-    let written = write_whole(&beside, &to_ron(document)).and_then(|()| std::fs::rename(&beside, path));
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let beside = beside(&target);
+    let written = write_whole(&beside, &to_ron(document))
+        .and_then(|()| match std::fs::metadata(&target) {
+            Ok(old) if old.is_file() => std::fs::set_permissions(&beside, old.permissions()),
+            _ => Ok(()),
+        })
+        .and_then(|()| std::fs::rename(&beside, &target));
     written.map_err(|error| {
         // The name is ours alone; if it was never made there is nothing to remove.
         let _ = std::fs::remove_file(&beside);
