@@ -213,6 +213,58 @@ fn two_outputs_to_one_place_are_refused() {
 }
 
 #[test]
+fn two_names_of_one_file_are_one_place() {
+    let folder = folder();
+    let both = |csv: &str, measures: &str| {
+        let message = "give one of them another file name";
+        fails(&["run", "rope", "--csv", &path_in(&folder, csv), "--measures", &path_in(&folder, measures)], 1, message);
+    };
+    both("new.csv", "./new.csv");
+    assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 0, "nothing is written");
+    std::fs::write(path_in(&folder, "old.csv"), "old").expect("a file");
+    std::fs::hard_link(path_in(&folder, "old.csv"), path_in(&folder, "hard.csv")).expect("a second name");
+    both("old.csv", "./old.csv");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::symlink;
+        symlink("old.csv", path_in(&folder, "soft.csv")).expect("a link");
+        symlink("new.csv", path_in(&folder, "dangling.csv")).expect("a link to nothing");
+        both("old.csv", "hard.csv");
+        both("soft.csv", "old.csv");
+        both("dangling.csv", "new.csv");
+    }
+    assert_eq!(read(&path_in(&folder, "old.csv")), "old");
+    let two = [path_in(&folder, "a.csv"), path_in(&folder, "b.csv")];
+    prints(&["run", "rope", "--seconds", "0.1", "--csv", &two[0], "--measures", &two[1]]);
+}
+
+#[test]
+#[cfg(unix)]
+fn standard_output_by_another_name_is_still_standard_output() {
+    fails(&["run", "rope", "--csv", "-", "--measures", "/dev/stdout"], 1, "give one of them another file name");
+    let folder = folder();
+    let out = path_in(&folder, "out.csv");
+    for name in ["/dev/stdout", &out] {
+        let file = std::fs::File::create(&out).expect("a file");
+        let mut run = command(&["run", "pendulum", "--seconds", "0.1", "--csv", name]);
+        assert!(run.stdout(file).stderr(Stdio::null()).status().expect("the program runs").success());
+        assert!(read(&out).starts_with(TRAJECTORY), "the summary is not written over the rows");
+    }
+}
+
+#[test]
+fn a_run_does_not_overwrite_its_scene() {
+    let folder = folder();
+    let (scene, again) = (path_in(&folder, "scene.ron"), path_in(&folder, "./scene.ron"));
+    let text = "(version: 1, bodies: [Particle()])";
+    std::fs::write(&scene, text).expect("a scene file");
+    for option in ["--csv", "--measures"] {
+        fails(&["run", &scene, option, &again], 1, "would overwrite the scene");
+    }
+    assert_eq!(read(&scene), text);
+}
+
+#[test]
 fn a_file_that_cannot_be_written_is_named() {
     let folder = folder();
     fails(&["run", "rope", "--csv", &path_in(&folder, "missing/out.csv")], 1, "missing/out.csv");

@@ -3,6 +3,7 @@
 mod check;
 mod desktop;
 mod numbers;
+mod output;
 pub mod run;
 mod scenes;
 mod truth;

@@ -31,7 +31,7 @@ pub fn save(path: &Path, document: &Document) -> Result<(), SceneError> {
 }
 
 /// Where a chain of symbolic links leads, also if nothing is there yet.
-fn behind_links(path: &Path) -> PathBuf {
+pub(crate) fn behind_links(path: &Path) -> PathBuf {
     let mut target = path.to_owned();
     // The system itself follows no longer chains; what is still a link then is one that leads back to itself.
     for _ in 0..40 {
