@@ -1,5 +1,6 @@
 //! The program as a user runs it from a shell: what it prints, what it writes, and how it ends.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
@@ -82,8 +83,11 @@ fn what_is_not_understood_ends_with_two_and_a_hint() {
         fails(&["run", "rope", "--every", wrong], 2, "1/60");
     }
     fails(&["run", "rope", "--hz", "0"], 2, "steps per second");
-    fails(&["run", "rope", "--substeps", "0"], 2, "1..=1000");
-    fails(&["run", "rope", "--iterations", "-4"], 2, "iterations");
+    fails(&["run", "rope", "--iterations", "-4"], 2, "a whole number from 1 to 100000");
+    for wrong in ["2.5", "0", "1001", "99999999999", "many"] {
+        fails(&["run", "rope", "--substeps", wrong], 2, "a whole number from 1 to 1000");
+    }
+    fails(&["run", "rope", "--every", "1e-10"], 2, "from 1e-9 to 1000000");
     fails(&["run", "rope", "--baumgarte", "2"], 2, "from 0 to 1");
     fails(&["shot", "rope", "a.png", "--size", "big"], 2, "1280x800");
     fails(&["shot", "rope", "a.jpg"], 2, "such as picture.png");
@@ -155,6 +159,15 @@ fn rows_come_at_the_step_nearest_to_each_sample_and_once_only() {
     // 0, 2.4, 4.8, 7.2 and 9.6 steps
     assert_eq!(times("0.024"), [0.0, 2.0, 5.0, 7.0, 10.0]);
     assert_eq!(times("0.001"), (0..=10).map(f64::from).collect::<Vec<_>>());
+}
+
+#[test]
+fn samples_within_a_step_cost_nothing() {
+    let started = std::time::Instant::now();
+    let csv = prints(&["run", "pendulum", "--hz", "1", "--seconds", "20", "--every", "1e-9", "--csv", "-"]);
+    assert_eq!(rows(&csv).iter().map(|row| row[0].to_bits()).collect::<BTreeSet<_>>().len(), 21, "{csv}");
+    // 20 steps take a millisecond; a look at each of the 2·10¹⁰ samples takes more than a minute.
+    assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
 }
 
 #[test]

@@ -35,10 +35,10 @@ pub struct RunArguments {
     #[arg(long, value_parser = numbers::hz)]
     hz: Option<f64>,
     /// Substeps a step, in place of the scene's
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_parser = numbers::substeps)]
     substeps: Option<u32>,
     /// Solver sweeps a substep, in place of the scene's
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_parser = numbers::iterations)]
     iterations: Option<u32>,
     /// How positions and velocities are carried on, in place of the scene's way
     #[arg(long, value_parser = integrator())]
@@ -171,6 +171,8 @@ pub struct Finish {
 /// Steps `world` for `sampling.seconds` and writes rows on the way. Stops early, rows flushed by the caller, on divergence.
 pub fn run(mut world: World, method: Method, sampling: Sampling, rows: &mut Rows) -> anyhow::Result<Finish> {
     let mut stepper = Stepper::new(method)?.with_clock(nanoseconds);
+    // There are no rows between steps, and a step may hold a billion samples.
+    let sampling = Sampling { every: sampling.every.max(method.step_seconds()), ..sampling };
     let last = (sampling.seconds * method.hz).round() as u64;
     rows.headers()?;
     rows.write(&world, 0.0)?;
