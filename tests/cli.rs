@@ -286,22 +286,53 @@ fn a_file_that_cannot_be_written_is_named() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn a_full_disk_is_reported() {
-    fails(&["run", "rope", "--seconds", "0.1", "--csv", "/dev/full"], 1, "the disk is full");
+fn a_full_disk_is_reported_once() {
+    fails(&["run", "rope", "--seconds", "0.1", "--csv", "/dev/full"], 1, "/dev/full: the disk is full");
+    for arguments in [
+        &["--help"][..],
+        &["run", "--help"],
+        &["--version"],
+        &["scenes"],
+        &["check", "rope"],
+        &["truth", "truth/pendulum"],
+        &["run", "rope", "--seconds", "0.1"],
+        &["run", "rope", "--seconds", "0.1", "--csv", "-"],
+    ] {
+        let output = command(arguments).stdout(full()).output().expect("the program runs");
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {message}");
+        assert!(message.contains("standard output: the disk is full"), "{arguments:?}: {message}");
+        assert_eq!(message.lines().count(), 1, "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn messages_that_cannot_be_written_leave_the_exit_code() {
+    for (arguments, code) in [(["check", "missing"], 1), (["run", "missing"], 1), (["run", "--what"], 2)] {
+        let status = command(&arguments).stderr(full()).status().expect("the program runs");
+        assert_eq!(status.code(), Some(code), "{arguments:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn full() -> std::fs::File {
+    std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a device that is always full")
 }
 
 #[test]
 #[cfg(unix)]
 fn a_reader_that_leaves_early_ends_the_run_quietly() {
-    let mut child = command(&["run", "pile", "--seconds", "2", "--csv", "-"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    drop(child.stdout.take());
-    let output = child.wait_with_output().expect("the program ends");
-    assert!(output.status.success(), "{:?}", output.status);
-    assert_eq!(text(&output.stderr), "");
+    for arguments in
+        [&["run", "pile", "--seconds", "2", "--csv", "-"][..], &["--help"], &["scenes"], &["check", "rope"]]
+    {
+        let mut child =
+            command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("the program ends");
+        assert!(output.status.success(), "{arguments:?}: {:?}", output.status);
+        assert_eq!(text(&output.stderr), "", "{arguments:?}");
+    }
 }
 
 #[test]

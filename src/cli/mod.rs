@@ -75,6 +75,15 @@ pub fn execute(arguments: Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Prints what the reader of the command line has to say: help and the version, or what is wrong.
+pub fn say(answer: &clap::Error) -> anyhow::Result<ExitCode> {
+    let code = ExitCode::from(if answer.use_stderr() { 2 } else { 0 });
+    match answer.print() {
+        Err(error) if !answer.use_stderr() => Err(output::Output::stdout().explain(error).into()),
+        _ => Ok(code),
+    }
+}
+
 /// Whether an error only says that the reader of our output has gone.
 pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
     let kinds = error.chain().filter_map(|cause| cause.downcast_ref::<std::io::Error>());

@@ -2,6 +2,7 @@
 
 use crate::scene::behind_links;
 use anyhow::Context;
+use std::fmt::Display;
 use std::fs::{File, Metadata};
 use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -18,23 +19,34 @@ pub(super) struct Output {
 impl Output {
     /// Creates or empties the file `name`; `-` is standard output.
     pub(super) fn create(name: &str) -> anyhow::Result<Output> {
-        let inner: Box<dyn Write> = match name {
-            STDOUT => Box::new(std::io::stdout()),
-            _ => Box::new(File::create(Path::new(name)).with_context(|| format!("cannot create {name}"))?),
-        };
-        Ok(Output { name: name.to_owned(), inner: BufWriter::new(inner) })
+        if name == STDOUT {
+            return Ok(Output::stdout());
+        }
+        let file = File::create(Path::new(name)).with_context(|| format!("cannot create {name}"))?;
+        Ok(Output { name: name.to_owned(), inner: BufWriter::new(Box::new(file)) })
     }
 
-    fn explain(&self, error: std::io::Error) -> std::io::Error {
-        match error.kind() {
-            ErrorKind::BrokenPipe => error,
+    /// Standard output.
+    pub(super) fn stdout() -> Output {
+        Output { name: "to standard output".to_owned(), inner: BufWriter::new(Box::new(std::io::stdout())) }
+    }
+
+    /// Writes a line that somebody waits for.
+    pub(super) fn line(&mut self, line: impl Display) -> std::io::Result<()> {
+        writeln!(self, "{line}")?;
+        self.flush()
+    }
+
+    pub(super) fn explain(&self, error: std::io::Error) -> std::io::Error {
+        let name = &self.name;
+        let advice = match error.kind() {
+            ErrorKind::BrokenPipe => return error,
             ErrorKind::StorageFull => {
-                let advice =
-                    format!("cannot write {}: the disk is full; free some space or write elsewhere", self.name);
-                std::io::Error::new(ErrorKind::StorageFull, advice)
+                format!("cannot write {name}: the disk is full; free some space or write elsewhere")
             }
-            kind => std::io::Error::new(kind, format!("cannot write {}: {error}", self.name)),
-        }
+            _ => format!("cannot write {name}: {error}"),
+        };
+        std::io::Error::new(error.kind(), advice)
     }
 }
 

@@ -110,11 +110,8 @@ impl RunArguments {
 
     /// Where the hash and the summary go: not between rows of CSV.
     fn says(&self, line: &str) -> std::io::Result<()> {
-        if self.outputs().any(|(_, file)| is_stdout(file)) {
-            writeln!(std::io::stderr(), "{line}")
-        } else {
-            writeln!(std::io::stdout(), "{line}")
-        }
+        let rows_on_stdout = self.outputs().any(|(_, file)| is_stdout(file));
+        if rows_on_stdout { writeln!(std::io::stderr(), "{line}") } else { Output::stdout().line(line) }
     }
 }
 
