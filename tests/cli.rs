@@ -1,5 +1,6 @@
 //! The program as a user runs it from a shell: what it prints, what it writes, and how it ends.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
@@ -82,8 +83,11 @@ fn what_is_not_understood_ends_with_two_and_a_hint() {
         fails(&["run", "rope", "--every", wrong], 2, "1/60");
     }
     fails(&["run", "rope", "--hz", "0"], 2, "steps per second");
-    fails(&["run", "rope", "--substeps", "0"], 2, "1..=1000");
-    fails(&["run", "rope", "--iterations", "-4"], 2, "iterations");
+    fails(&["run", "rope", "--iterations", "-4"], 2, "a whole number from 1 to 100000");
+    for wrong in ["2.5", "0", "1001", "99999999999", "many"] {
+        fails(&["run", "rope", "--substeps", wrong], 2, "a whole number from 1 to 1000");
+    }
+    fails(&["run", "rope", "--every", "1e-10"], 2, "from 1e-9 to 1000000");
     fails(&["run", "rope", "--baumgarte", "2"], 2, "from 0 to 1");
     fails(&["shot", "rope", "a.png", "--size", "big"], 2, "1280x800");
     fails(&["shot", "rope", "a.jpg"], 2, "such as picture.png");
@@ -158,6 +162,15 @@ fn rows_come_at_the_step_nearest_to_each_sample_and_once_only() {
 }
 
 #[test]
+fn samples_within_a_step_cost_nothing() {
+    let started = std::time::Instant::now();
+    let csv = prints(&["run", "pendulum", "--hz", "1", "--seconds", "20", "--every", "1e-9", "--csv", "-"]);
+    assert_eq!(rows(&csv).iter().map(|row| row[0].to_bits()).collect::<BTreeSet<_>>().len(), 21, "{csv}");
+    // 20 steps take a millisecond; a look at each of the 2·10¹⁰ samples takes more than a minute.
+    assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
+}
+
+#[test]
 fn written_numbers_are_read_back_with_the_same_bits() {
     let csv = prints(&["run", "bridge", "--seconds", "0.5", "--every", "0.5", "--csv", "-"]);
     let mut setup = tautline::scene::open("bridge").expect("a shipped scene");
@@ -213,6 +226,58 @@ fn two_outputs_to_one_place_are_refused() {
 }
 
 #[test]
+fn two_names_of_one_file_are_one_place() {
+    let folder = folder();
+    let both = |csv: &str, measures: &str| {
+        let message = "give one of them another file name";
+        fails(&["run", "rope", "--csv", &path_in(&folder, csv), "--measures", &path_in(&folder, measures)], 1, message);
+    };
+    both("new.csv", "./new.csv");
+    assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 0, "nothing is written");
+    std::fs::write(path_in(&folder, "old.csv"), "old").expect("a file");
+    std::fs::hard_link(path_in(&folder, "old.csv"), path_in(&folder, "hard.csv")).expect("a second name");
+    both("old.csv", "./old.csv");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::symlink;
+        symlink("old.csv", path_in(&folder, "soft.csv")).expect("a link");
+        symlink("new.csv", path_in(&folder, "dangling.csv")).expect("a link to nothing");
+        both("old.csv", "hard.csv");
+        both("soft.csv", "old.csv");
+        both("dangling.csv", "new.csv");
+    }
+    assert_eq!(read(&path_in(&folder, "old.csv")), "old");
+    let two = [path_in(&folder, "a.csv"), path_in(&folder, "b.csv")];
+    prints(&["run", "rope", "--seconds", "0.1", "--csv", &two[0], "--measures", &two[1]]);
+}
+
+#[test]
+#[cfg(unix)]
+fn standard_output_by_another_name_is_still_standard_output() {
+    fails(&["run", "rope", "--csv", "-", "--measures", "/dev/stdout"], 1, "give one of them another file name");
+    let folder = folder();
+    let out = path_in(&folder, "out.csv");
+    for name in ["/dev/stdout", &out] {
+        let file = std::fs::File::create(&out).expect("a file");
+        let mut run = command(&["run", "pendulum", "--seconds", "0.1", "--csv", name]);
+        assert!(run.stdout(file).stderr(Stdio::null()).status().expect("the program runs").success());
+        assert!(read(&out).starts_with(TRAJECTORY), "the summary is not written over the rows");
+    }
+}
+
+#[test]
+fn a_run_does_not_overwrite_its_scene() {
+    let folder = folder();
+    let (scene, again) = (path_in(&folder, "scene.ron"), path_in(&folder, "./scene.ron"));
+    let text = "(version: 1, bodies: [Particle()])";
+    std::fs::write(&scene, text).expect("a scene file");
+    for option in ["--csv", "--measures"] {
+        fails(&["run", &scene, option, &again], 1, "would overwrite the scene");
+    }
+    assert_eq!(read(&scene), text);
+}
+
+#[test]
 fn a_file_that_cannot_be_written_is_named() {
     let folder = folder();
     fails(&["run", "rope", "--csv", &path_in(&folder, "missing/out.csv")], 1, "missing/out.csv");
@@ -221,22 +286,53 @@ fn a_file_that_cannot_be_written_is_named() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn a_full_disk_is_reported() {
-    fails(&["run", "rope", "--seconds", "0.1", "--csv", "/dev/full"], 1, "the disk is full");
+fn a_full_disk_is_reported_once() {
+    fails(&["run", "rope", "--seconds", "0.1", "--csv", "/dev/full"], 1, "/dev/full: the disk is full");
+    for arguments in [
+        &["--help"][..],
+        &["run", "--help"],
+        &["--version"],
+        &["scenes"],
+        &["check", "rope"],
+        &["truth", "truth/pendulum"],
+        &["run", "rope", "--seconds", "0.1"],
+        &["run", "rope", "--seconds", "0.1", "--csv", "-"],
+    ] {
+        let output = command(arguments).stdout(full()).output().expect("the program runs");
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {message}");
+        assert!(message.contains("standard output: the disk is full"), "{arguments:?}: {message}");
+        assert_eq!(message.lines().count(), 1, "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn messages_that_cannot_be_written_leave_the_exit_code() {
+    for (arguments, code) in [(["check", "missing"], 1), (["run", "missing"], 1), (["run", "--what"], 2)] {
+        let status = command(&arguments).stderr(full()).status().expect("the program runs");
+        assert_eq!(status.code(), Some(code), "{arguments:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn full() -> std::fs::File {
+    std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a device that is always full")
 }
 
 #[test]
 #[cfg(unix)]
 fn a_reader_that_leaves_early_ends_the_run_quietly() {
-    let mut child = command(&["run", "pile", "--seconds", "2", "--csv", "-"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    drop(child.stdout.take());
-    let output = child.wait_with_output().expect("the program ends");
-    assert!(output.status.success(), "{:?}", output.status);
-    assert_eq!(text(&output.stderr), "");
+    for arguments in
+        [&["run", "pile", "--seconds", "2", "--csv", "-"][..], &["--help"], &["scenes"], &["check", "rope"]]
+    {
+        let mut child =
+            command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("the program ends");
+        assert!(output.status.success(), "{arguments:?}: {:?}", output.status);
+        assert_eq!(text(&output.stderr), "", "{arguments:?}");
+    }
 }
 
 #[test]
@@ -286,21 +382,4 @@ fn what_has_no_truth_is_refused_with_advice() {
     let disc = path_in(&folder, "disc.ron");
     std::fs::write(&disc, "(version: 1, truth: (seconds: 1, length: 1), bodies: [Disc()])").expect("a scene file");
     fails(&["truth", &disc], 1, "a disc that turns");
-}
-
-#[test]
-fn rows_more_often_than_steps_are_a_row_a_step() {
-    let csv = prints(&["run", "pendulum", "--seconds", "0.1", "--hz", "100", "--every", "1e-9", "--csv", "-"]);
-    assert_eq!(csv.lines().count(), 1 + 11, "a header, the start and ten steps");
-}
-
-#[test]
-fn one_file_under_two_names_is_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let one = folder.path().join("rows.csv");
-    let other = folder.path().join(".").join("rows.csv");
-    let (one, other) = (one.display().to_string(), other.display().to_string());
-    let output = tautline(&["run", "pendulum", "--seconds", "0.1", "--csv", &one, "--measures", &other]);
-    assert!(!output.status.success());
-    assert!(String::from_utf8_lossy(&output.stderr).contains("are the same file"));
 }

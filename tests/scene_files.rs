@@ -142,29 +142,17 @@ fn assert_refused(path: &str, phrase: &str) {
 
 #[test]
 #[cfg(unix)]
-fn saving_through_a_link_keeps_the_link_and_the_files_permissions() {
-    use std::os::unix::fs::{PermissionsExt, symlink};
-    let folder = tempfile::tempdir().expect("a folder");
-    let (file, link) = (folder.path().join("file.ron"), folder.path().join("link.ron"));
-    std::fs::write(&file, "old").expect("a file");
-    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o640)).expect("its owner may");
-    symlink(&file, &link).expect("a link");
-    let document = scene::capture(&scene::open("pendulum").expect("a shipped scene"));
-    scene::save(&link, &document).expect("room for a scene");
-    assert!(link.symlink_metadata().expect("the link").is_symlink());
-    assert!(scene::open(&file.display().to_string()).is_ok(), "the file behind the link is the scene");
-    assert_eq!(file.metadata().expect("the file").permissions().mode() & 0o777, 0o640);
-}
-
-#[test]
-#[cfg(unix)]
 fn a_device_or_a_pipe_is_refused_without_waiting_for_it() {
     assert_refused("/dev/zero", "a pipe or a device");
     let folder = tempfile::tempdir().expect("a folder");
+    assert_refused(&pipe_in(&folder).display().to_string(), "a pipe or a device");
+}
+
+fn pipe_in(folder: &tempfile::TempDir) -> std::path::PathBuf {
     let pipe = folder.path().join("pipe.ron");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs");
     assert!(made.success());
-    assert_refused(&pipe.display().to_string(), "a pipe or a device");
+    pipe
 }
 
 #[test]
@@ -332,6 +320,54 @@ fn saving_replaces_the_file_whole_or_leaves_it_alone() {
     let names: Vec<_> =
         std::fs::read_dir(&folder).expect("the folder").map(|file| file.expect("a file").file_name()).collect();
     assert_eq!(names, ["mine.ron"], "nothing else is left behind");
+}
+
+#[test]
+#[cfg(unix)]
+fn saving_through_a_link_replaces_what_it_leads_to_and_keeps_its_permissions() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("deep")).expect("a folder in it");
+    symlink("deep/second", at("first")).expect("a link");
+    symlink("../mine.ron", at("deep/second")).expect("a link to a file that is not there yet");
+    let document = scene::capture(&open("rope"));
+    scene::save(&at("first"), &document).expect("a place to write");
+    std::fs::set_permissions(at("mine.ron"), PermissionsExt::from_mode(0o640)).expect("own permissions");
+    scene::save(&at("first"), &document).expect("a file to replace");
+    assert!(at("first").is_symlink() && at("deep/second").is_symlink());
+    let about = at("mine.ron").symlink_metadata().expect("the file that the links lead to");
+    assert!(about.is_file());
+    assert_eq!(about.permissions().mode() & 0o777, 0o640);
+    assert_eq!(open(&at("first").display().to_string()).world.bodies().len(), 51);
+    assert_eq!(std::fs::read_dir(at("deep")).expect("the folder").count(), 1, "nothing else is left behind");
+}
+
+#[test]
+fn saving_leaves_alone_what_is_not_to_be_replaced() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let refused = |path: &std::path::Path, phrase: &str| {
+        let message = scene::save(path, &Document::default()).expect_err("not to be replaced").to_string();
+        assert!(message.contains(phrase) && message.contains("Choose another name."), "{message}");
+    };
+    let path = folder.path().join("kept.ron");
+    std::fs::write(&path, "kept").expect("a file");
+    let mut permissions = path.metadata().expect("the file").permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(&path, permissions).expect("own permissions");
+    refused(&path, "a file that is read-only");
+    assert_eq!(std::fs::read_to_string(&path).expect("the file"), "kept");
+    if cfg!(unix) {
+        refused(&pipe_in(&folder), "a pipe or a device");
+    }
+}
+
+#[test]
+fn a_name_as_long_as_names_can_be_is_saved_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a".repeat(251) + ".ron");
+    scene::save(&path, &Document::default()).expect("255 bytes, which every file system of today takes");
+    assert!(path.is_file());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `tautline check`: says what a scene contains, or what is wrong with it.
 
+use super::output::Output;
 use crate::engine::World;
 use crate::scene;
 use std::io::Write;
@@ -16,18 +17,18 @@ pub struct CheckArguments {
 }
 
 pub(super) fn execute(arguments: &CheckArguments) -> anyhow::Result<ExitCode> {
-    let mut out = std::io::stdout().lock();
+    let mut out = Output::stdout();
     let mut code = ExitCode::SUCCESS;
     for file in &arguments.files {
         match scene::open(file) {
-            Ok(setup) => writeln!(out, "{file}: good. {:?}: {}", setup.title, contents(&setup.world))?,
+            Ok(setup) => out.line(format_args!("{file}: good. {:?}: {}", setup.title, contents(&setup.world)))?,
             Err(error) => {
-                eprintln!("{error}");
+                // Where nobody can be told, the exit code still tells.
+                let _ = writeln!(std::io::stderr(), "{error}");
                 code = ExitCode::FAILURE;
             }
         }
     }
-    out.flush()?;
     Ok(code)
 }
 

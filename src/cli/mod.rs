@@ -3,6 +3,7 @@
 mod check;
 mod desktop;
 mod numbers;
+mod output;
 pub mod run;
 mod scenes;
 mod truth;
@@ -72,6 +73,15 @@ pub fn execute(arguments: Arguments) -> anyhow::Result<ExitCode> {
         Some(Command::Shot(arguments)) => desktop::shot(&arguments)?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Prints what the reader of the command line has to say: help and the version, or what is wrong.
+pub fn say(answer: &clap::Error) -> anyhow::Result<ExitCode> {
+    let code = ExitCode::from(if answer.use_stderr() { 2 } else { 0 });
+    match answer.print() {
+        Err(error) if !answer.use_stderr() => Err(output::Output::stdout().explain(error).into()),
+        _ => Ok(code),
+    }
 }
 
 /// Whether an error only says that the reader of our output has gone.

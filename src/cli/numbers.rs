@@ -14,7 +14,7 @@ pub(super) fn seconds(text: &str) -> Result<f64, String> {
 
 /// A time between samples [s]: a number or a fraction such as 1/60.
 pub(super) fn interval(text: &str) -> Result<f64, String> {
-    const EXPECTED: &str = "a number of seconds above 0 such as 0.1, or a fraction such as 1/60";
+    const EXPECTED: &str = "a number of seconds from 1e-9 to 1000000 such as 0.1, or a fraction such as 1/60";
     let (over, under) = text.split_once('/').unwrap_or((text, "1"));
     let parts = over.trim().parse::<f64>().ok().zip(under.trim().parse::<f64>().ok());
     match parts.map(|(over, under)| over / under) {
@@ -26,6 +26,16 @@ pub(super) fn interval(text: &str) -> Result<f64, String> {
 /// Steps a second [Hz].
 pub(super) fn hz(text: &str) -> Result<f64, String> {
     number(text, 1.0, 1e5, "a rate from 1 to 100000 steps per second")
+}
+
+/// Substeps a step.
+pub(super) fn substeps(text: &str) -> Result<u32, String> {
+    count(text, 1000)
+}
+
+/// Solver sweeps a substep.
+pub(super) fn iterations(text: &str) -> Result<u32, String> {
+    count(text, 100_000)
 }
 
 /// The part of the position error fed back in a substep.
@@ -58,6 +68,13 @@ fn number(text: &str, low: f64, high: f64, expected: &str) -> Result<f64, String
     match text.parse::<f64>() {
         Ok(value) if value >= low && value <= high => Ok(value),
         _ => Err(format!("expected {expected}")),
+    }
+}
+
+fn count(text: &str, most: u32) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(count) if (1..=most).contains(&count) => Ok(count),
+        _ => Err(format!("expected a whole number from 1 to {most}")),
     }
 }
 

@@ -1,14 +1,12 @@
 //! `tautline run`: steps a scene without a window and writes what happens.
 
 use super::numbers;
+use super::output::{Output, is_same, is_stdout};
 use crate::engine::{Divergence, Integrator, Method, Solver, StepReport, Stepper, World};
 use crate::measure::Measures;
 use crate::scene;
-use anyhow::Context;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use std::fs::File;
-use std::io::{BufWriter, ErrorKind, Write};
-use std::path::Path;
+use std::io::Write;
 use std::sync::OnceLock;
 use std::time::Instant;
 
@@ -37,10 +35,10 @@ pub struct RunArguments {
     #[arg(long, value_parser = numbers::hz)]
     hz: Option<f64>,
     /// Substeps a step, in place of the scene's
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_parser = numbers::substeps)]
     substeps: Option<u32>,
     /// Solver sweeps a substep, in place of the scene's
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_parser = numbers::iterations)]
     iterations: Option<u32>,
     /// How positions and velocities are carried on, in place of the scene's way
     #[arg(long, value_parser = integrator())]
@@ -92,28 +90,37 @@ impl RunArguments {
         self.integrator.is_some() || self.solver.is_some()
     }
 
+    /// The options that name a file to write, with that name.
+    fn outputs(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let named = [("--csv", self.csv.as_deref()), ("--measures", self.measures.as_deref())];
+        named.into_iter().filter_map(|(option, file)| Some((option, file?)))
+    }
+
+    /// Refuses to write two tables into one file, or one over the scene.
+    fn check_outputs(&self) -> anyhow::Result<()> {
+        if self.csv.as_deref().zip(self.measures.as_deref()).is_some_and(|(csv, measures)| is_same(csv, measures)) {
+            anyhow::bail!("--csv and --measures cannot both go to the same place: give one of them another file name");
+        }
+        let is_scene = |file| scene::find_shipped(&self.scene).is_none() && is_same(file, &self.scene);
+        if let Some((option, _)) = self.outputs().find(|(_, file)| is_scene(file)) {
+            anyhow::bail!("{option} would overwrite the scene {}: give it another file name", self.scene);
+        }
+        Ok(())
+    }
+
     /// Where the hash and the summary go: not between rows of CSV.
     fn says(&self, line: &str) -> std::io::Result<()> {
-        let rows_on_stdout = [&self.csv, &self.measures].into_iter().any(|file| file.as_deref() == Some("-"));
-        if rows_on_stdout { writeln!(std::io::stderr(), "{line}") } else { writeln!(std::io::stdout(), "{line}") }
+        let rows_on_stdout = self.outputs().any(|(_, file)| is_stdout(file));
+        if rows_on_stdout { writeln!(std::io::stderr(), "{line}") } else { Output::stdout().line(line) }
     }
 }
 
 pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
-    if arguments.csv.is_some() && arguments.csv == arguments.measures {
-        anyhow::bail!("--csv and --measures cannot both go to the same place: give one of them another file name");
-    }
     let setup = scene::open(&arguments.scene)?;
+    arguments.check_outputs()?;
     let method = arguments.method(setup.method);
-    // There is nothing new between two steps.
-    let every = arguments.every.unwrap_or_default().max(method.step_seconds());
-    let sampling = Sampling { seconds: arguments.seconds, every };
+    let sampling = Sampling { seconds: arguments.seconds, every: arguments.every.unwrap_or(method.step_seconds()) };
     let mut trajectory = arguments.csv.as_deref().map(Output::create).transpose()?;
-    if let (Some(csv), Some(measures)) = (&arguments.csv, &arguments.measures)
-        && are_one_file(Path::new(csv), Path::new(measures))
-    {
-        anyhow::bail!("--csv {csv} and --measures {measures} are the same file: give one of them another name");
-    }
     let mut measures = arguments.measures.as_deref().map(Output::create).transpose()?;
     let mut rows = Rows {
         trajectory: trajectory.as_mut().map(|output| output as &mut dyn Write),
@@ -132,14 +139,6 @@ pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
         arguments.says(&format!("{:016x}", finish.world.hash()))?;
     }
     Ok(())
-}
-
-/// Whether both paths lead to the same regular file, which exists.
-fn are_one_file(one: &Path, other: &Path) -> bool {
-    match (one.canonicalize(), other.canonicalize()) {
-        (Ok(one), Ok(other)) => one == other && one.is_file(),
-        _ => false,
-    }
 }
 
 /// How long to run and when to write [s].
@@ -169,6 +168,8 @@ pub struct Finish {
 /// Steps `world` for `sampling.seconds` and writes rows on the way. Stops early, rows flushed by the caller, on divergence.
 pub fn run(mut world: World, method: Method, sampling: Sampling, rows: &mut Rows) -> anyhow::Result<Finish> {
     let mut stepper = Stepper::new(method)?.with_clock(nanoseconds);
+    // There are no rows between steps, and a step may hold a billion samples.
+    let sampling = Sampling { every: sampling.every.max(method.step_seconds()), ..sampling };
     let last = (sampling.seconds * method.hz).round() as u64;
     rows.headers()?;
     rows.write(&world, 0.0)?;
@@ -247,44 +248,6 @@ impl Rows<'_> {
             writeln!(out, "{:?},{:?},{contacts},{step_us:?}", m.violation_max, m.penetration_max)?;
         }
         Ok(())
-    }
-}
-
-/// A file or standard output, buffered. Its errors name the file and say what to do.
-struct Output {
-    name: String,
-    inner: BufWriter<Box<dyn Write>>,
-}
-
-impl Output {
-    fn create(name: &str) -> anyhow::Result<Output> {
-        let inner: Box<dyn Write> = match name {
-            "-" => Box::new(std::io::stdout()),
-            _ => Box::new(File::create(Path::new(name)).with_context(|| format!("cannot create {name}"))?),
-        };
-        Ok(Output { name: name.to_owned(), inner: BufWriter::new(inner) })
-    }
-
-    fn explain(&self, error: std::io::Error) -> std::io::Error {
-        match error.kind() {
-            ErrorKind::BrokenPipe => error,
-            ErrorKind::StorageFull => {
-                let advice =
-                    format!("cannot write {}: the disk is full; free some space or write elsewhere", self.name);
-                std::io::Error::new(ErrorKind::StorageFull, advice)
-            }
-            kind => std::io::Error::new(kind, format!("cannot write {}: {error}", self.name)),
-        }
-    }
-}
-
-impl Write for Output {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.inner.write(bytes).map_err(|error| self.explain(error))
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        self.inner.flush().map_err(|error| self.explain(error))
     }
 }
 

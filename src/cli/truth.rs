@@ -1,10 +1,10 @@
 //! `tautline truth`: computes the exact motion of a scene and compares or writes it.
 
+use super::output::Output;
 use crate::measure::error_against;
 use crate::scene::{self, Setup};
 use crate::truth::{self, Trajectory};
 use anyhow::Context;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -54,13 +54,10 @@ fn say(setup: &Setup, found: &Trajectory, seconds: f64) -> std::io::Result<()> {
         .and_then(|stored| error_against(&stored.positions, &found.positions, found.length))
         .map_or("not stored".to_owned(), |error| format!("stored one differs by {error:.1e}"));
     let agreement = found.agreement;
-    let mut out = std::io::stdout().lock();
-    writeln!(
-        out,
+    Output::stdout().line(format_args!(
         "{}: agreement {agreement:.1e}, {stored}, {samples} samples of {bodies} bodies in {seconds:.1} s",
         setup.name
-    )?;
-    out.flush()
+    ))
 }
 
 fn write(folder: &Path, name: &str, found: &Trajectory) -> anyhow::Result<()> {

@@ -22,6 +22,7 @@ pub use document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settin
 pub use error::{Place, SceneError};
 pub use generator::Generator;
 pub use read::{LARGEST_FILE, open, parse, read_file};
+pub(crate) use save::behind_links;
 pub use save::{save, to_ron};
 pub use shipped::{Shipped, find_shipped, shipped, truth_scenes};
 
