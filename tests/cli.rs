@@ -116,6 +116,10 @@ fn check_tells_good_scenes_from_wrong_ones() {
     let both = tautline(&["check", wrong, "rope"]);
     assert!(text(&both.stdout).contains("rope: good"), "the others are checked all the same");
     assert_eq!(both.status.code(), Some(1));
+    let folder = folder();
+    let long = path_in(&folder, "long.ron");
+    std::fs::write(&long, format!("(version: 1, title: {:?})", "a".repeat(10_000))).expect("a scene file");
+    assert!(prints(&["check", &long]).len() < 1000, "a title that fills pages is not printed whole");
 }
 
 #[test]

@@ -53,7 +53,7 @@ const BROKEN: &[(&str, usize, usize, &str)] = &[
     ("future_version", 3, 14, "update tautline"),
     ("huge_cloth", 5, 9, "at most 1000000 bodies"),
     ("infinite_position", 3, 33, "found position inf"),
-    ("inside_out_box", 3, 22, "min must be left of max"),
+    ("inside_out_box", 3, 22, "with min left of max"),
     ("latin1", 3, 16, "the byte 0xe9"),
     ("list_without_brackets", 3, 13, "expected a list in [ ]"),
     ("mass_and_density", 3, 37, "a mass and a density"),
@@ -161,6 +161,65 @@ fn errors_of_a_document_without_text_name_its_part() {
     let document = Document { bodies: vec![BodyEntry::Disc(BodyFields::default()), wrong], ..Document::default() };
     let error = document.build().expect_err("a mass that is not a number");
     assert_eq!(error.place, Place::Part("scene.bodies[1].mass".to_owned()));
+}
+
+#[test]
+fn numbers_that_are_none_are_found_in_the_field_where_they_stand() {
+    let generators = [
+        ("Rope", ["from", "to"]),
+        ("Bridge", ["from", "to"]),
+        ("Pile", ["min", "max"]),
+        ("Cloth", ["corner"; 2]),
+        ("Net", ["corner"; 2]),
+        ("Stack", ["base"; 2]),
+        ("SoftBody", ["centre"; 2]),
+        ("Cradle", ["centre"; 2]),
+    ];
+    for (generator, fields) in generators {
+        for (field, point) in fields.iter().zip(["(NaN, 0)", "(0, -1e308)"]) {
+            let text = format!("(version: 1, generators: [{generator}({field}: {point})])");
+            let message = scene::parse("a.ron", &text).expect_err("no place for a body").to_string();
+            let column = text.find(point).expect("the point") + 1;
+            assert!(message.starts_with(&format!("a.ron:1:{column}: found {field} ")), "{text}: {message}");
+        }
+    }
+    for generator in ["Cradle(radius: NaN)", "Cradle(balls: 1, radius: 1e308)", "Stack(radius: inf)"] {
+        let text = format!("(version: 1, generators: [{generator}])");
+        let message = scene::parse("a.ron", &text).expect_err("no radius").to_string();
+        assert!(message.contains("found radius ") && message.contains("between 0 and 1000000 m"), "{message}");
+    }
+}
+
+#[test]
+fn a_box_of_the_wrong_width_is_told_both_limits() {
+    for (min, max) in [("(-1e9, 0)", "(1e9, 1)"), ("(1, 0)", "(0, 1)"), ("(0, 1)", "(1, 0)"), ("(0, -1e9)", "(1, 1e9)")]
+    {
+        let text = format!("(version: 1, walls: [Box(min: {min}, max: {max})])");
+        let message = scene::parse("a.ron", &text).expect_err("no box").to_string();
+        assert!(message.contains("between 1e-9 and 1e9 m, with min "), "{message}");
+    }
+}
+
+#[test]
+fn names_that_fill_pages_are_not_printed_whole() {
+    let long = "ä".repeat(10_000);
+    for text in [
+        format!("bodies: [Particle(name: \"{long}\"), Particle(name: \"{long}\")]"),
+        format!("bodies: [Particle(name: \"{long}.\")]"),
+        format!("bodies: [Particle()], constraints: [Rod(a: \"{long}\", b: (0, 0))]"),
+        format!("bodies: [Particle(name: \"{long}\")], constraints: [Rod(a: \"other\", b: (0, 0))]"),
+        format!("bodies: [Particle(name: \"{long}\")], constraints: [Rod(a: \"{long}.1\", b: (0, 0))]"),
+        format!("generators: [Rope(name: \"{long}\")], constraints: [Rod(a: \"{long}.9999\", b: (0, 0))]"),
+        format!("{long}: 3"),
+        format!("bodies: [{long}()]"),
+        format!("settings: {long}(drag: 1)"),
+        format!("settings: (drag: \"{long}\")"),
+        format!("settings: (solver: \"{long}\")"),
+        format!("bodies: [Particle()], constraints: [Rod(a: \"\", b: {long})]"),
+    ] {
+        let message = scene::parse("a.ron", &format!("(version: 1, {text})")).expect_err("a mistake").to_string();
+        assert!(message.chars().count() < 400, "{} characters: {message}", message.chars().count());
+    }
 }
 
 #[test]

@@ -21,7 +21,9 @@ pub(super) fn execute(arguments: &CheckArguments) -> anyhow::Result<ExitCode> {
     let mut code = ExitCode::SUCCESS;
     for file in &arguments.files {
         match scene::open(file) {
-            Ok(setup) => out.line(format_args!("{file}: good. {:?}: {}", setup.title, contents(&setup.world)))?,
+            Ok(setup) => {
+                out.line(format_args!("{file}: good. {:?}: {}", scene::shown(&setup.title), contents(&setup.world)))?
+            }
             Err(error) => {
                 // Where nobody can be told, the exit code still tells.
                 let _ = writeln!(std::io::stderr(), "{error}");

@@ -50,8 +50,8 @@ impl Wall {
             Shape::Box { min, max } => {
                 check_point("lower corner of the box", min)?;
                 check_point("upper corner of the box", max)?;
-                check("width of the box", max.x - min.x, [1e-9, 1e9], "at least 1e-9 m: min must be left of max")?;
-                check("height of the box", max.y - min.y, [1e-9, 1e9], "at least 1e-9 m: min must be below max")?;
+                check("width of the box", max.x - min.x, [1e-9, 1e9], "between 1e-9 and 1e9 m, with min left of max")?;
+                check("height of the box", max.y - min.y, [1e-9, 1e9], "between 1e-9 and 1e9 m, with min below max")?;
             }
         }
         check("restitution", self.restitution, [0.0, 1.0], "between 0 and 1")?;

@@ -3,6 +3,7 @@
 use super::Setup;
 use super::document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, Truth, WallEntry};
 use super::error::{Fault, Problem, SceneError};
+use super::generator::check_point;
 use super::names::Names;
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, Shape, Spin, Wall, World};
 
@@ -68,9 +69,7 @@ impl Document {
     fn checked_view(&self) -> Result<Option<(DVec2, f64)>, Fault> {
         let Some(view) = self.view else { return Ok(None) };
         let in_view = |fault: Fault| fault.within("view");
-        if !view.centre.is_finite() || view.centre.abs().max_element() > 1e9 {
-            return Err(in_view(Fault::value("centre", view.centre.abs().max_element(), "coordinates within 1e9 m")));
-        }
+        check_point("centre", view.centre).map_err(in_view)?;
         if !(view.height >= 1e-6 && view.height <= 1e9) {
             return Err(in_view(Fault::value("height", view.height, "a height between 1e-6 and 1e9 m")));
         }

@@ -1,6 +1,7 @@
 //! What is wrong with a scene file: where, what was found, what was expected, and how to mend it.
 
 use crate::engine::EngineError;
+use std::borrow::Cow;
 use std::fmt;
 
 /// The one message about a scene that cannot be used.
@@ -64,6 +65,15 @@ impl SceneError {
     /// An error at a place in a file's text, from 1.
     pub fn text(file: impl Into<String>, [line, column]: [usize; 2], problem: Problem) -> SceneError {
         SceneError { place: Place::Text { file: file.into(), line, column }, problem: Box::new(problem) }
+    }
+}
+
+/// A name or a text of a file as a message shows it: its beginning, if it is long.
+pub(crate) fn shown(name: &str) -> Cow<'_, str> {
+    const LONGEST: usize = 48;
+    match name.char_indices().nth(LONGEST) {
+        Some((end, _)) => Cow::Owned(format!("{}…", &name[..end])),
+        None => Cow::Borrowed(name),
     }
 }
 

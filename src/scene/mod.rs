@@ -19,6 +19,7 @@ mod shipped;
 
 pub use capture::capture;
 pub use document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, Truth, View, WallEntry};
+pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use generator::Generator;
 pub use read::{LARGEST_FILE, open, parse, read_file};

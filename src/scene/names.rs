@@ -1,6 +1,6 @@
 //! Names of bodies and of generators' nodes, and what they stand for.
 
-use super::error::{Fault, Problem};
+use super::error::{Fault, Problem, shown};
 use super::nearest::nearest;
 use crate::engine::Id;
 use std::collections::BTreeMap;
@@ -46,6 +46,7 @@ impl Layout {
 
     /// The nodes as a user may name them.
     fn describe(&self, name: &str) -> String {
+        let name = shown(name);
         match *self {
             Layout::Line(count) => format!("{name}.0 to {name}.{}", count - 1),
             Layout::Grid { columns, rows } => format!("{name}.0.0 to {name}.{}.{}", columns - 1, rows - 1),
@@ -80,12 +81,15 @@ impl Names {
     fn add(&mut self, name: &str, named: Named) -> Result<(), Fault> {
         if name.is_empty() || name.contains('.') {
             let expected = "a name without dots, which separate a generator from its nodes";
-            let problem = Problem::new(format!("the name {name:?}"), expected, "Choose another name.");
+            let problem = Problem::new(format!("the name {:?}", shown(name)), expected, "Choose another name.");
             return Err(Fault::new(Some("name"), problem));
         }
         if self.named.insert(name.to_owned(), named).is_some() {
-            let problem =
-                Problem::new(format!("a second {name:?}"), "a name that is used once", "Rename one of the two.");
+            let problem = Problem::new(
+                format!("a second {:?}", shown(name)),
+                "a name that is used once",
+                "Rename one of the two.",
+            );
             return Err(Fault::new(Some("name"), problem));
         }
         Ok(())
@@ -100,7 +104,9 @@ impl Names {
                 Some(index) => Ok(first + index),
                 None => Err(missing(field, reference, &format!("Its nodes are {}.", layout.describe(name)))),
             },
-            Some(Named::Body(_)) => Err(missing(field, reference, &format!("{name:?} is a body without nodes."))),
+            Some(Named::Body(_)) => {
+                Err(missing(field, reference, &format!("{:?} is a body without nodes.", shown(name))))
+            }
             None => Err(missing(field, reference, &self.advice(name))),
         }
     }
@@ -123,13 +129,16 @@ impl Names {
 
     fn advice(&self, name: &str) -> String {
         match (nearest(name, self.named.keys().map(String::as_str)), self.named.keys().next()) {
-            (Some(known), _) => format!("Did you mean {known:?}?"),
-            (None, Some(known)) => format!("Name one of the scene's bodies, for example {known:?}."),
+            (Some(known), _) => format!("Did you mean {:?}?", shown(known)),
+            (None, Some(known)) => format!("Name one of the scene's bodies, for example {:?}.", shown(known)),
             (None, None) => "Give the body a name: `name: \"…\"`.".to_owned(),
         }
     }
 }
 
 fn missing(field: &'static str, reference: &str, advice: &str) -> Fault {
-    Fault::new(Some(field), Problem::new(format!("the unknown body {reference:?}"), "a body of this scene", advice))
+    Fault::new(
+        Some(field),
+        Problem::new(format!("the unknown body {:?}", shown(reference)), "a body of this scene", advice),
+    )
 }

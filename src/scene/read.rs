@@ -1,7 +1,7 @@
 //! From a file or a text to a document, with every mistake reported once, in place.
 
 use super::document::{Document, VERSION};
-use super::error::{Fault, Place, Problem, SceneError};
+use super::error::{Fault, Place, Problem, SceneError, shown};
 use super::locate::{line_and_column, locate};
 use super::nearest::nearest;
 use super::{Setup, find_shipped, shipped, truth_scenes};
@@ -190,14 +190,14 @@ fn syntax_problem(code: &ron::Error, token: &str) -> Problem {
             let found = ["unsigned integer", "signed integer", "floating point number"]
                 .iter()
                 .fold(found.clone(), |text, long| text.replace(long, "number"));
-            Problem::new(found, expected.clone(), "Change the value.")
+            Problem::new(shown(&found), expected.clone(), "Change the value.")
         }
         // The only lists of a fixed length are points and pairs.
         Error::ExpectedDifferentLength { found, .. } => {
             Problem::new(format!("the end after {found} of two numbers"), "two numbers", "Write a point as (1.0, 2.0).")
         }
         Error::ExpectedDifferentStructName { expected, found } => Problem::new(
-            format!("`{found}`"),
+            format!("`{}`", shown(found)),
             format!("`{expected}` or nothing"),
             "Remove the name before the bracket.",
         ),
@@ -273,7 +273,7 @@ fn unknown(what: &str, found: &str, expected: &[&str]) -> Problem {
         Some(meant) => format!("Did you mean `{meant}`?"),
         None => "Remove it or use one of those.".to_owned(),
     };
-    Problem::new(format!("the unknown {what} `{found}`"), format!("one of {known}"), mend)
+    Problem::new(format!("the unknown {what} `{}`", shown(found)), format!("one of {known}"), mend)
 }
 
 /// The reader steps over the sign of a number before it reports the number.

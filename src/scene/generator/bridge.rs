@@ -2,7 +2,7 @@
 
 use super::super::error::Fault;
 use super::rope::add_chain;
-use super::{Generate, Layout, Link, check_range, fresh_group};
+use super::{Generate, Layout, Link, check_point, check_range, fresh_group};
 use crate::engine::{Body, DVec2, Motion, World};
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +64,8 @@ impl Generate for Bridge {
     }
 
     fn check(&self) -> Result<(), Fault> {
+        check_point("from", self.from)?;
+        check_point("to", self.to)?;
         check_range("links", f64::from(self.links), [2.0, 1e6], "")?;
         check_range("sag", self.sag, [0.0, 1e6], "m")
     }

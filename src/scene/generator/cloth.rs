@@ -2,7 +2,7 @@
 
 use super::super::error::Fault;
 use super::grid::Grid;
-use super::{Generate, Layout, Pins, check_range, fresh_group};
+use super::{Generate, Layout, Pins, check_point, check_range, fresh_group};
 use crate::engine::{Body, DVec2, Kind, World};
 use serde::{Deserialize, Serialize};
 
@@ -62,6 +62,7 @@ impl Generate for Cloth {
     }
 
     fn check(&self) -> Result<(), Fault> {
+        check_point("corner", self.corner)?;
         check_range("columns", f64::from(self.columns), [1.0, 1e6], "")?;
         check_range("rows", f64::from(self.rows), [1.0, 1e6], "")?;
         check_range("spacing", self.spacing, [1e-9, 1e6], "m")

@@ -1,7 +1,7 @@
 //! Newton's cradle: equal balls in a row, each hanging on a rod.
 
 use super::super::error::Fault;
-use super::{Generate, Layout, check_range};
+use super::{Generate, Layout, check_point, check_range};
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, World};
 use serde::{Deserialize, Serialize};
 
@@ -55,6 +55,8 @@ impl Generate for Cradle {
     }
 
     fn check(&self) -> Result<(), Fault> {
+        check_point("centre", self.centre)?;
+        check_range("radius", self.radius, [0.0, 1e6], "m")?;
         check_range("balls", f64::from(self.balls), [1.0, 1e6], "")?;
         check_range("raised", f64::from(self.raised), [0.0, f64::from(self.balls)], "")?;
         check_range("angle", self.angle, [-3.2, 3.2], "rad")?;

@@ -25,7 +25,7 @@ pub use stack::Stack;
 use super::build::MOST_BODIES;
 use super::error::{Fault, SceneError};
 pub use super::names::Layout;
-use crate::engine::{Id, World};
+use crate::engine::{DVec2, Id, World};
 use serde::{Deserialize, Serialize};
 
 /// A generator with its parameters.
@@ -111,6 +111,14 @@ fn check_range(field: &'static str, value: f64, [low, high]: [f64; 2], unit: &st
     }
     let expected = format!("a value between {low} and {high} {unit}");
     Err(Fault::value(field, value, expected.trim_end()))
+}
+
+/// `Ok` if a point is one where bodies may be.
+pub(super) fn check_point(field: &'static str, point: DVec2) -> Result<(), Fault> {
+    match point.to_array().into_iter().find(|coordinate| !(coordinate.abs() <= 1e9)) {
+        Some(coordinate) => Err(Fault::value(field, coordinate, "coordinates within 1e9 m")),
+        None => Ok(()),
+    }
 }
 
 /// A collision group that no body has yet: its members do not touch each other.

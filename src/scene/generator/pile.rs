@@ -3,7 +3,7 @@
 use super::super::build::disc_mass;
 use super::super::error::{Fault, Problem};
 use super::super::random::Random;
-use super::{Generate, Layout, check_range};
+use super::{Generate, Layout, check_point, check_range};
 use crate::engine::{Body, DVec2, Spin, World};
 use serde::{Deserialize, Serialize};
 
@@ -58,6 +58,8 @@ impl Generate for Pile {
     }
 
     fn check(&self) -> Result<(), Fault> {
+        check_point("min", self.min)?;
+        check_point("max", self.max)?;
         check_range("count", f64::from(self.count), [1.0, 1e6], "")?;
         let (smallest, largest) = self.radius;
         check_range("radius", smallest, [1e-6, 1e6], "m")?;

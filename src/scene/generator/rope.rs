@@ -1,7 +1,7 @@
 //! A rope: nodes on a straight line, each joined to the next.
 
 use super::super::error::Fault;
-use super::{Generate, Layout, Link, check_range, fresh_group};
+use super::{Generate, Layout, Link, check_point, check_range, fresh_group};
 use crate::engine::{Body, Constraint, DVec2, Id, Motion, World};
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +64,8 @@ impl Generate for Rope {
     }
 
     fn check(&self) -> Result<(), Fault> {
+        check_point("from", self.from)?;
+        check_point("to", self.to)?;
         check_range("links", f64::from(self.links), [1.0, 1e6], "")
     }
 

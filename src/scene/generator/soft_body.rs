@@ -1,7 +1,7 @@
 //! A soft body: a ring of particles and springs that keeps its shape.
 
 use super::super::error::Fault;
-use super::{Generate, Layout, check_range, fresh_group};
+use super::{Generate, Layout, check_point, check_range, fresh_group};
 use crate::engine::{Body, Constraint, DVec2, Id, Kind, World};
 use serde::{Deserialize, Serialize};
 
@@ -70,6 +70,7 @@ impl Generate for SoftBody {
     }
 
     fn check(&self) -> Result<(), Fault> {
+        check_point("centre", self.centre)?;
         check_range("nodes", f64::from(self.nodes), [6.0, 1e6], "")?;
         check_range("radius", self.radius, [1e-6, 1e6], "m")
     }

@@ -1,7 +1,7 @@
 //! A stack: discs standing on each other.
 
 use super::super::error::Fault;
-use super::{Generate, Layout, check_range};
+use super::{Generate, Layout, check_point, check_range};
 use crate::engine::{Body, DVec2, Spin, World};
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +50,8 @@ impl Generate for Stack {
     }
 
     fn check(&self) -> Result<(), Fault> {
+        check_point("base", self.base)?;
+        check_range("radius", self.radius, [0.0, 1e6], "m")?;
         check_range("count", f64::from(self.count), [1.0, 1e6], "")
     }
 
