@@ -183,6 +183,12 @@ fn numbers_that_are_none_are_found_in_the_field_where_they_stand() {
             assert!(message.starts_with(&format!("a.ron:1:{column}: found {field} ")), "{text}: {message}");
         }
     }
+    for field in ["hz", "baumgarte", "accuracy", "drag"] {
+        let text = format!("(version: 1, settings: ({field}: NaN))");
+        let message = scene::parse("a.ron", &text).expect_err("no setting").to_string();
+        let column = text.find("NaN").expect("the number") + 1;
+        assert!(message.starts_with(&format!("a.ron:1:{column}: found {field} NaN")), "{message}");
+    }
     for generator in ["Cradle(radius: NaN)", "Cradle(balls: 1, radius: 1e308)", "Stack(radius: inf)"] {
         let text = format!("(version: 1, generators: [{generator}])");
         let message = scene::parse("a.ron", &text).expect_err("no radius").to_string();

@@ -31,6 +31,10 @@ pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
         Some(scene) => vec![scene],
         None => scene::truth_scenes().iter().map(|scene| scene.name).collect(),
     };
+    if let Some(folder) = arguments.write.as_deref().filter(|folder| !folder.is_dir()) {
+        // Before minutes are spent on what could not be kept.
+        anyhow::bail!("cannot write into {}: it is not a folder; create it first", folder.display());
+    }
     for name in names {
         let setup = scene::open(name)?;
         let Some(span) = setup.truth else {

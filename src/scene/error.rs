@@ -159,13 +159,14 @@ impl From<EngineError> for Fault {
 
 /// The field of the format behind a quantity of the engine.
 fn field_of(what: &str) -> Option<&'static str> {
-    const FIELDS: [(&str, &str); 30] = [
+    const FIELDS: [(&str, &str); 31] = [
         ("gravity", "gravity"),
         ("drag", "drag"),
         ("hz", "hz"),
         ("substeps", "substeps"),
         ("iterations", "iterations"),
         ("baumgarte", "baumgarte"),
+        ("accuracy", "accuracy"),
         ("stiffness factor", "stiffness"),
         ("position", "position"),
         ("speed", "velocity"),
