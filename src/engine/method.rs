@@ -19,17 +19,28 @@ pub enum Integrator {
     Taylor,
     /// Implicit midpoint with discrete gradients, for islands that nothing can touch: order 2, keeps energy and momenta.
     EnergyMomentum,
+    /// Velocity Verlet with the constraints met in every step, for islands that nothing can touch: order 2, symplectic.
+    Rattle,
+    /// The classical Runge–Kutta method with the constraints solved for in every stage: order 4.
+    RungeKutta4,
+    /// Symplectic Runge–Kutta–Nyström methods for islands of springs without dampers.
+    Nystrom4,
+    Nystrom6,
 }
 
 impl Integrator {
     /// All of them, in the order in which they are listed to a user.
-    pub const ALL: [Integrator; 6] = [
+    pub const ALL: [Integrator; 10] = [
         Integrator::ExplicitEuler,
         Integrator::SemiImplicitEuler,
         Integrator::PositionVerlet,
         Integrator::VelocityVerlet,
         Integrator::Taylor,
         Integrator::EnergyMomentum,
+        Integrator::Rattle,
+        Integrator::RungeKutta4,
+        Integrator::Nystrom4,
+        Integrator::Nystrom6,
     ];
 
     /// Those that go through the substep loop, with a solver.
@@ -49,6 +60,10 @@ impl Integrator {
             Integrator::VelocityVerlet => "Velocity Verlet",
             Integrator::Taylor => "Taylor series",
             Integrator::EnergyMomentum => "Energy–momentum midpoint",
+            Integrator::Rattle => "RATTLE",
+            Integrator::RungeKutta4 => "Runge–Kutta of order 4",
+            Integrator::Nystrom4 => "Symplectic Nyström of order 4",
+            Integrator::Nystrom6 => "Symplectic Nyström of order 6",
         }
     }
 
@@ -61,13 +76,17 @@ impl Integrator {
             Integrator::VelocityVerlet => "velocity-verlet",
             Integrator::Taylor => "taylor",
             Integrator::EnergyMomentum => "energy-momentum",
+            Integrator::Rattle => "rattle",
+            Integrator::RungeKutta4 => "runge-kutta-4",
+            Integrator::Nystrom4 => "nystrom-4",
+            Integrator::Nystrom6 => "nystrom-6",
         }
     }
 
     /// Whether it carries a whole island at once, its constraints solved exactly, instead of taking a solver. What can touch
     /// is then stepped with [`Integrator::OF_CONTACTS`].
     pub fn is_direct(self) -> bool {
-        matches!(self, Integrator::Taylor | Integrator::EnergyMomentum)
+        !Integrator::SUBSTEPPED.contains(&self)
     }
 
     /// The integrator of what can touch, where the chosen one takes no contacts.

@@ -21,6 +21,15 @@ const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
 const LOCAL: f64 = 0.03;
 
+/// Accuracies down to which methods of order 2 cost least.
+const SECOND_ORDER: f64 = 3e-4;
+/// Accuracies down to which Nyström's methods cost least.
+const ORDER_4: f64 = 1e-5;
+const FINEST_NYSTROM: f64 = 1e-11;
+
+/// The same for methods of order 2, whose errors add up more evenly.
+const LOCAL_SECOND: f64 = 0.018;
+
 /// The decisions for one world under one method.
 #[derive(Debug, Default)]
 pub struct Plan {
@@ -65,7 +74,7 @@ pub(crate) struct IslandPlan {
     /// Local error allowed in a step, in parts of the island's size.
     pub tolerance: f64,
     /// Steps within a step of the world, where the integrator does not find them itself.
-    pub steps: u32,
+    pub steps: Option<u32>,
 }
 
 impl Plan {
@@ -117,9 +126,7 @@ impl Plan {
         for (index, group) in smooth.into_iter().enumerate() {
             if self.without.binary_search(&index).is_err() {
                 group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
-                let integrator = integrator_of(world, method, &group);
-                let (tolerance, steps) = (LOCAL * method.accuracy, method.substeps);
-                self.islands.push(IslandPlan { group, integrator, tolerance, steps });
+                self.islands.push(IslandPlan::of(world, method, group));
             }
         }
         let bodies = &world.bodies;
@@ -205,6 +212,28 @@ impl Plan {
         }
     }
 
+    /// Which integrators carry how many islands.
+    fn describe_islands(&self, sentence: &mut String, method: &Method) {
+        let mut first = true;
+        for integrator in Integrator::ALL {
+            let carried = || self.islands.iter().filter(|island| island.integrator == integrator);
+            let Some(island) = carried().next() else { continue };
+            let _ = write!(sentence, "{}{} by ", if first { "" } else { ", " }, plural(carried().count(), "island"));
+            first = false;
+            let _ = match (integrator, island.steps) {
+                (Integrator::Taylor, _) => write!(sentence, "Taylor series to {:.0e}", method.accuracy),
+                (_, Some(steps)) => {
+                    write!(sentence, "{}, {} a step", spoken(integrator), plural(steps as usize, "substep"))
+                }
+                (Integrator::Rattle, None) => {
+                    write!(sentence, "RATTLE within {:.0e}, the midpoint rule where it is stiff", method.accuracy)
+                }
+                (_, None) => write!(sentence, "{} within {:.0e}", spoken(integrator), method.accuracy),
+            };
+        }
+        sentence.push_str(", solved directly");
+    }
+
     fn describe(&self, world: &World, method: &Method) -> String {
         let mut parts = Vec::new();
         let counts = [
@@ -229,17 +258,8 @@ impl Plan {
         }
         let mut sentence = parts.join(", ");
         if !self.islands.is_empty() {
-            let islands = plural(self.islands.len(), "island");
-            let midpoint = self.islands.iter().filter(|island| island.integrator == Integrator::EnergyMomentum).count();
-            let _ = match midpoint {
-                0 => write!(sentence, "; {islands} by Taylor series to {:.0e}, solved directly", method.accuracy),
-                _ => write!(
-                    sentence,
-                    "; {} by the energy–momentum midpoint rule, {} a step, solved directly",
-                    plural(midpoint, "island"),
-                    plural(method.substeps as usize, "substep"),
-                ),
-            };
+            sentence.push_str("; ");
+            self.describe_islands(&mut sentence, method);
         }
         if (method.automatic || method.integrator.is_direct()) && self.rest {
             let bodies = (0..world.bodies.len()).filter(|i| !self.in_island[*i] && world.bodies.inverse_mass[*i] > 0.0);
@@ -268,17 +288,50 @@ impl Plan {
     }
 }
 
-/// How an island is carried. Ropes that tighten and slacken need events, which only the series has.
-fn integrator_of(world: &World, method: &Method, group: &Group) -> Integrator {
-    let is_rope = |i: &u32| matches!(world.constraints.kind[*i as usize], Kind::Rope { .. });
-    let midpoint = method.integrator == Integrator::EnergyMomentum && !method.automatic;
-    if midpoint && !group.constraints.iter().any(is_rope) { Integrator::EnergyMomentum } else { Integrator::Taylor }
+impl IslandPlan {
+    /// How an island is carried. Ropes that tighten and slacken need events, which only the series has; what Nyström's methods
+    /// do not take goes by series too.
+    fn of(world: &World, method: &Method, group: Group) -> IslandPlan {
+        let kinds = || group.constraints.iter().map(|i| &world.constraints.kind[*i as usize]);
+        let ropes = kinds().any(|kind| matches!(kind, Kind::Rope { .. }));
+        let plain_spring = |kind: &Kind| matches!(kind, Kind::Spring { damping, .. } if *damping == 0.0);
+        let springs = world.drag == 0.0 && kinds().all(plain_spring);
+        let integrator = match method.integrator {
+            _ if ropes => Integrator::Taylor,
+            _ if method.automatic && method.accuracy >= SECOND_ORDER => Integrator::Rattle,
+            _ if method.automatic && springs && method.accuracy >= FINEST_NYSTROM => {
+                if method.accuracy >= ORDER_4 {
+                    Integrator::Nystrom4
+                } else {
+                    Integrator::Nystrom6
+                }
+            }
+            _ if method.automatic => Integrator::Taylor,
+            Integrator::Nystrom4 | Integrator::Nystrom6 if !springs => Integrator::Taylor,
+            by_hand => by_hand,
+        };
+        let steps = (!method.automatic).then_some(method.substeps);
+        let local = if integrator == Integrator::Rattle { LOCAL_SECOND } else { LOCAL };
+        IslandPlan { group, integrator, tolerance: local * method.accuracy, steps }
+    }
 }
 
 /// Whether a row can move anything: something dynamic hangs on it, and it is not an empty spring.
 fn can_act(joint: &Joint, world: &World) -> bool {
     let movable = |end: u32| world.bodies.inverse_mass.get(end as usize).is_some_and(|w| *w > 0.0);
     (movable(joint.a) || movable(joint.b)) && (joint.form.stiffness > 0.0 || joint.form.damping > 0.0)
+}
+
+/// The name of an integrator of islands within a sentence.
+fn spoken(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::Taylor => "Taylor series",
+        Integrator::EnergyMomentum => "the energy–momentum midpoint rule",
+        Integrator::RungeKutta4 => "Runge–Kutta of order 4",
+        Integrator::Nystrom4 => "symplectic Nyström of order 4",
+        Integrator::Nystrom6 => "symplectic Nyström of order 6",
+        _ => integrator.name(),
+    }
 }
 
 /// The body that the mouse holds off its centre, if it can turn.

@@ -150,6 +150,18 @@ pub fn integrator_help(integrator: Integrator) -> &'static str {
         Integrator::Taylor => {
             "Whole islands that nothing can touch, to the accuracy below: series of high order, constraints solved exactly."
         }
+        Integrator::Rattle => {
+            "Whole islands that nothing can touch: velocity Verlet, rods and pins met in every step. Order 2, symplectic."
+        }
+        Integrator::RungeKutta4 => {
+            "Whole islands that nothing can touch, the rods' forces solved for in each of four stages. Order 4; loses energy."
+        }
+        Integrator::Nystrom4 => {
+            "Islands of springs without dampers: six force evaluations a step. Order 4, symplectic."
+        }
+        Integrator::Nystrom6 => {
+            "Islands of springs without dampers: eleven force evaluations a step. Order 6, symplectic."
+        }
         Integrator::EnergyMomentum => {
             "Whole islands that nothing can touch, one or more solves a step. Order 2; keeps energy and both momenta exactly."
         }

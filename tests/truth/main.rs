@@ -2,6 +2,7 @@
 
 mod closed_form;
 mod energy_momentum;
+mod orders;
 mod reference;
 mod stored;
 mod taylor;

@@ -7,8 +7,13 @@
 pub(crate) mod energy_momentum;
 mod explicit_euler;
 mod forces;
+pub(crate) mod nystrom;
+pub(crate) mod outcome;
+pub(crate) mod pace;
 mod position_verlet;
+pub(crate) mod rattle;
 mod rope_events;
+pub(crate) mod runge_kutta;
 mod semi_implicit_euler;
 pub(crate) mod taylor;
 mod velocity_verlet;
@@ -20,6 +25,10 @@ use super::method::Integrator;
 use super::plan::Plan;
 use super::state::State;
 use super::world::World;
+
+/// Most steps of an island in one call. What needs more does not run in real time, and is left to a method that damps what it
+/// cannot follow.
+const MOST_STEPS: f64 = 1000.0;
 
 /// What an integrator needs to know of the scene in a substep.
 pub(crate) struct Scene<'a> {
@@ -36,7 +45,7 @@ pub(crate) fn begin(integrator: Integrator, scene: &Scene, state: &mut State, fo
         Integrator::SemiImplicitEuler => semi_implicit_euler::begin(scene, state, forces),
         Integrator::PositionVerlet => position_verlet::begin(scene, state, forces),
         Integrator::VelocityVerlet => velocity_verlet::begin(scene, state, forces),
-        Integrator::Taylor | Integrator::EnergyMomentum => unreachable!("the plan gives contacts another integrator"),
+        _ => unreachable!("the plan gives what can touch an integrator with substeps"),
     }
 }
 

@@ -16,6 +16,7 @@
 //! Cost of a step of order P: P solves and about P² multiply-adds a rod, 6 P² a spring. It does not damp; stiff springs and
 //! very tense light ropes need many steps.
 
+use super::outcome::Outcome;
 use super::rope_events::Event;
 use crate::engine::island::System;
 use crate::engine::island::system::push;
@@ -26,22 +27,6 @@ const HIGHEST_ORDER: usize = 24;
 const LOWEST_ORDER: usize = 4;
 /// Part of the step that the estimate allows.
 const SAFETY: f64 = 0.9;
-/// Most steps in one call. What needs more does not run in real time, and is left to a method that damps what it cannot follow.
-const MOST_STEPS: u32 = 1000;
-
-/// What an integrator says of the time it carried an island through.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Outcome {
-    /// Steps taken, and those taken back.
-    pub steps: u32,
-    pub retries: u32,
-    /// Highest order used.
-    pub order: u32,
-    /// Estimate of the local errors' sum [m].
-    pub error: f64,
-    /// The equations could not be solved to the tolerance.
-    pub failed: bool,
-}
 
 /// Coefficients by order, then by node, rod or spring.
 #[derive(Debug, Default)]
@@ -129,7 +114,7 @@ impl Taylor {
             self.expand_first(system, left);
             let order = self.expand(system, left, tolerance, highest);
             let mut part = self.step_part(order, tolerance);
-            if !(f64::from(outcome.steps) + 1.0 / part <= f64::from(MOST_STEPS)) {
+            if !(f64::from(outcome.steps) + 1.0 / part <= super::MOST_STEPS) {
                 outcome.failed = true;
                 return outcome;
             }
@@ -185,7 +170,7 @@ impl Taylor {
             }
             part *= 0.5;
             outcome.retries += 1;
-            if !(part * f64::from(MOST_STEPS) > 1.0) {
+            if !(part * super::MOST_STEPS > 1.0) {
                 return None;
             }
         }

@@ -55,6 +55,70 @@ impl Springs {
         factor
     }
 
+    /// Adds the springs' forces to vectors by node [N].
+    pub fn add_forces(&self, nodes: &Nodes, fx: &mut [f64], fy: &mut [f64]) {
+        if !self.damped {
+            return self.add_elastic_forces(nodes, fx, fy);
+        }
+        for (i, (a, b)) in self.a.iter().zip(&self.b).enumerate() {
+            let (a, b) = (*a as usize, *b as usize);
+            let (dx, dy) = (nodes.x[b] - nodes.x[a], nodes.y[b] - nodes.y[a]);
+            let factor = self.factor(i, (dx, dy), nodes);
+            fx[a] -= factor * dx;
+            fy[a] -= factor * dy;
+            fx[b] += factor * dx;
+            fy[b] += factor * dy;
+        }
+    }
+
+    /// The same without dampers: differences are gathered for some springs, their factors found side by side, and the forces
+    /// scattered.
+    fn add_elastic_forces(&self, nodes: &Nodes, fx: &mut [f64], fy: &mut [f64]) {
+        const SIDE: usize = 32;
+        let (mut dx, mut dy, mut factor) = ([0.0; SIDE], [0.0; SIDE], [0.0; SIDE]);
+        let chunks = self.a.chunks(SIDE).zip(self.b.chunks(SIDE));
+        let laws = self.rest.chunks(SIDE).zip(self.stiffness.chunks(SIDE));
+        for ((a, b), (rest, stiffness)) in chunks.zip(laws) {
+            for (((dx, dy), a), b) in dx.iter_mut().zip(&mut dy).zip(a).zip(b) {
+                *dx = nodes.x[*b as usize] - nodes.x[*a as usize];
+                *dy = nodes.y[*b as usize] - nodes.y[*a as usize];
+            }
+            for ((((factor, dx), dy), rest), k) in factor.iter_mut().zip(&dx).zip(&dy).zip(rest).zip(stiffness) {
+                let square: f64 = dx * dx + dy * dy;
+                let pull = k * (rest / square.sqrt() - 1.0);
+                *factor = if square > 0.0 { pull } else { 0.0 };
+            }
+            for ((((factor, dx), dy), a), b) in factor.iter().zip(&dx).zip(&dy).zip(a).zip(b) {
+                let (a, b) = (*a as usize, *b as usize);
+                let (px, py) = (factor * dx, factor * dy);
+                fx[a] -= px;
+                fy[a] -= py;
+                fx[b] += px;
+                fy[b] += py;
+            }
+        }
+    }
+
+    /// Adds the absolute values of the stiffness matrix by rows, half of them: for each end's x and y [N/m].
+    pub fn add_loads(&self, nodes: &Nodes, x: &mut [f64], y: &mut [f64]) {
+        for (i, (a, b)) in self.a.iter().zip(&self.b).enumerate() {
+            let (a, b) = (*a as usize, *b as usize);
+            let (dx, dy) = (nodes.x[b] - nodes.x[a], nodes.y[b] - nodes.y[a]);
+            let square = dx * dx + dy * dy;
+            if square > 0.0 {
+                let (k, cross) = (self.stiffness[i], (dx * dy).abs());
+                let inverse = 1.0 / square;
+                let tension = k * (1.0 - self.rest[i] * inverse.sqrt()).abs();
+                let over = k * inverse;
+                let (along_x, along_y) = (over * (dx * dx + cross) + tension, over * (dy * dy + cross) + tension);
+                x[a] += along_x;
+                x[b] += along_x;
+                y[a] += along_y;
+                y[b] += along_y;
+            }
+        }
+    }
+
     /// Writes the springs' forces, as multipliers (λ, 0) [N].
     pub fn store(&self, nodes: &Nodes, force: &mut [DVec2]) {
         for (i, constraint) in self.constraint.iter().enumerate() {

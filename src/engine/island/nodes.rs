@@ -27,6 +27,11 @@ impl Nodes {
         self.x.len()
     }
 
+    /// x, y, vx, vy.
+    pub fn coordinates(&mut self) -> [&mut Vec<f64>; 4] {
+        [&mut self.x, &mut self.y, &mut self.vx, &mut self.vy]
+    }
+
     /// Adds a node at rest.
     pub fn push(&mut self, body: u32, x: f64, y: f64, w: f64) -> u32 {
         self.body.push(body);

@@ -6,7 +6,13 @@ use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use crate::engine::integrate::energy_momentum::EnergyMomentum;
+use crate::engine::integrate::nystrom::Nystrom;
+use crate::engine::integrate::outcome::Outcome;
+use crate::engine::integrate::pace::Pace;
+use crate::engine::integrate::rattle::Rattle;
+use crate::engine::integrate::runge_kutta::RungeKutta;
 use crate::engine::integrate::taylor::Taylor;
+use crate::engine::linalg::sparse::Path;
 use crate::engine::plan::{IslandPlan, Plan};
 use crate::engine::report::StepReport;
 use crate::engine::world::World;
@@ -16,6 +22,9 @@ use crate::engine::world::World;
 pub(crate) struct Islands {
     islands: Vec<(IslandPlan, System)>,
     taylor: Taylor,
+    rattle: Rattle,
+    runge_kutta: RungeKutta,
+    nystrom: Nystrom,
     /// By island: it keeps the order in which the island is eliminated.
     energy_momentum: Vec<EnergyMomentum>,
     /// Indices of the islands that could not be carried in this step, ascending.
@@ -39,12 +48,9 @@ impl Islands {
     /// tolerance (contradicting constraints, springs too stiff to be followed in real time) are given up for this step.
     pub fn advance(&mut self, world: &World, time: f64, report: &mut StepReport) {
         self.given_up.clear();
-        for (index, (plan, system)) in self.islands.iter_mut().enumerate() {
-            system.load(world, time);
-            let outcome = match plan.integrator {
-                Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, plan.steps),
-                _ => self.taylor.advance(system, time, plan.tolerance * system.length),
-            };
+        for index in 0..self.islands.len() {
+            let outcome = self.carry(index, world, time);
+            let system = &self.islands[index].1;
             report.retries += outcome.retries;
             if outcome.failed || !in_range(system) {
                 self.given_up.push(index);
@@ -56,6 +62,33 @@ impl Islands {
             report.redundant += system.matrix.pivots.dropped;
         }
         report.given_up = self.given_up.len();
+    }
+
+    /// Carries one island through `time` [s].
+    fn carry(&mut self, index: usize, world: &World, time: f64) -> Outcome {
+        let (plan, system) = &mut self.islands[index];
+        system.load(world, time);
+        let tolerance = plan.tolerance * system.length;
+        let pace = plan.steps.map_or(Pace::Within(tolerance), Pace::Steps);
+        match plan.integrator {
+            Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, plan.steps.unwrap_or(1)),
+            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, plan.steps.unwrap_or(1)),
+            Integrator::Nystrom4 if Nystrom::takes(system) => self.nystrom.advance(system, time, pace, 4),
+            Integrator::Nystrom6 if Nystrom::takes(system) => self.nystrom.advance(system, time, pace, 6),
+            // A factor that fills in costs more than all else, and RATTLE takes one a substep.
+            Integrator::Rattle if plan.steps.is_none() && system.matrix.summary.path == Path::Sparse => {
+                self.energy_momentum[index].advance(system, time, 1)
+            }
+            Integrator::Rattle => {
+                let outcome = self.rattle.advance(system, time, pace);
+                if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
+                    return outcome;
+                }
+                system.load(world, time);
+                self.energy_momentum[index].advance(system, time, 1)
+            }
+            _ => self.taylor.advance(system, time, tolerance),
+        }
     }
 
     /// Islands that the last [`Islands::advance`] gave up, by index in the plan, ascending.

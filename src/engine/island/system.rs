@@ -188,6 +188,13 @@ impl System {
         self.matrix.factor(&self.rods, &self.dx, &self.dy);
     }
 
+    /// The same, if there is anything to factor.
+    pub fn factor_if_constrained(&mut self) {
+        if !self.unconstrained() {
+            self.factor();
+        }
+    }
+
     /// d of every rod at the present positions.
     pub fn take_differences(&mut self) {
         let (rods, nodes) = (&self.rods, &self.nodes);

@@ -14,15 +14,13 @@ mod discrete;
 mod graph;
 mod tree;
 
-use super::taylor::Outcome;
+use super::outcome::{Outcome, in_parts};
 use crate::engine::island::System;
 use graph::Graph;
 use tree::Tree;
 
 /// Cosine of the largest turn of a rod in a step.
 const TURN: f64 = 0.35;
-/// Halvings of a step before the run counts as failed.
-const MOST_HALVINGS: u32 = 10;
 /// Most Newton iterations.
 const MOST_ITERATIONS: u32 = 15;
 /// What the next correction would have to change to be worth making, in parts of a rod's length. Well above the rounding of a
@@ -64,36 +62,19 @@ impl EnergyMomentum {
         }
         let h = time / f64::from(steps);
         for _ in 0..steps {
-            if !self.step(system, h, &mut outcome) {
+            let step = |h: f64| {
+                let solved = self.solve(system, h);
+                if solved {
+                    self.apply(system, h);
+                }
+                solved
+            };
+            if !in_parts(h, &mut outcome, step) {
                 outcome.failed = true;
                 break;
             }
         }
         outcome
-    }
-
-    /// One step of `whole` seconds, in parts where it has to be. The part grows again after two that went well.
-    fn step(&mut self, system: &mut System, whole: f64, outcome: &mut Outcome) -> bool {
-        let finest = 1u32 << MOST_HALVINGS;
-        let (mut done, mut part) = (0, finest);
-        while done < finest {
-            let h = whole * f64::from(part) / f64::from(finest);
-            if self.solve(system, h) {
-                self.apply(system, h);
-                outcome.steps += 1;
-                done += part;
-                if done % (2 * part) == 0 && part < finest {
-                    part *= 2;
-                }
-            } else {
-                outcome.retries += 1;
-                part /= 2;
-                if part == 0 {
-                    return false;
-                }
-            }
-        }
-        true
     }
 
     fn solve(&mut self, system: &System, h: f64) -> bool {

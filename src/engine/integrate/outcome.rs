@@ -1,0 +1,43 @@
+//! What an integrator of islands says of its work, and how it retries smaller.
+
+/// Halvings of a step before the run counts as failed.
+const MOST_HALVINGS: u32 = 10;
+
+/// What an integrator says of the time it carried an island through.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Outcome {
+    /// Steps taken, and those taken back.
+    pub steps: u32,
+    pub retries: u32,
+    /// Highest order used.
+    pub order: u32,
+    /// Estimate of the local errors' sum [m].
+    pub error: f64,
+    /// The equations could not be solved to the tolerance.
+    pub failed: bool,
+    /// Nothing was done, as an implicit method would do it in fewer steps.
+    pub stiff: bool,
+}
+
+/// One step of `whole` seconds, in parts where it has to be: `step` says whether a step of so many seconds went well, and
+/// changes nothing where it did not. A part grows again after two that went well.
+pub(super) fn in_parts(whole: f64, outcome: &mut Outcome, mut step: impl FnMut(f64) -> bool) -> bool {
+    let finest = 1u32 << MOST_HALVINGS;
+    let (mut done, mut part) = (0, finest);
+    while done < finest {
+        if step(whole * f64::from(part) / f64::from(finest)) {
+            outcome.steps += 1;
+            done += part;
+            if done % (2 * part) == 0 && part < finest {
+                part *= 2;
+            }
+        } else {
+            outcome.retries += 1;
+            part /= 2;
+            if part == 0 {
+                return false;
+            }
+        }
+    }
+    true
+}

@@ -1,0 +1,117 @@
+//! Accelerations of an island at an instant, and how fast it can swing.
+
+use super::System;
+use glam::DVec2;
+
+/// How fast the parts of an island move, for choosing a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Rates {
+    /// Bound on the angular frequency of springs, dampers and tense rods [rad/s].
+    pub swing: f64,
+    /// Largest angular speed of a rod [rad/s].
+    pub turn: f64,
+}
+
+impl System {
+    /// Accelerations by the forces, without those of the constraints, at the present positions and velocities [m/s²].
+    pub fn force_accelerations(&self, ax: &mut [f64], ay: &mut [f64]) {
+        ax.fill(0.0);
+        ay.fill(0.0);
+        if self.springs.len() > 0 {
+            self.springs.add_forces(&self.nodes, ax, ay);
+        }
+        let nodes = &self.nodes;
+        if let Some(held) = &self.held {
+            let force = held.force(nodes);
+            ax[held.node] += force.x;
+            ay[held.node] += force.y;
+        }
+        let along = |a: &mut [f64], v: &[f64], gravity: f64| {
+            for (((a, v), w), free) in a.iter_mut().zip(v).zip(&nodes.w).zip(&nodes.free) {
+                *a = w * *a + free * (gravity - self.drag * v);
+            }
+        };
+        along(ax, &nodes.vx, self.gravity.x);
+        along(ay, &nodes.vy, self.gravity.y);
+    }
+
+    /// Adds what the constraints contribute to these accelerations, and keeps the multipliers [N/m]. The matrix must be factored
+    /// at the present positions: A λ = −J a − J̇v.
+    pub fn constrain_accelerations(&mut self, ax: &mut [f64], ay: &mut [f64]) {
+        if self.unconstrained() {
+            return;
+        }
+        let (nodes, rods) = (&self.nodes, &self.rods);
+        let n = rods.a.len();
+        for (r, rhs) in self.rhs[..n].iter_mut().enumerate() {
+            let (a, b) = (rods.a[r] as usize, rods.b[r] as usize);
+            let (vx, vy) = (nodes.vx[b] - nodes.vx[a], nodes.vy[b] - nodes.vy[a]);
+            let along = self.dx[r] * (ax[b] - ax[a]) + self.dy[r] * (ay[b] - ay[a]);
+            *rhs = -along - vx * vx - vy * vy;
+        }
+        for ((a, b), rhs) in self.pins.a.iter().zip(&self.pins.b).zip(self.rhs[n..].chunks_exact_mut(2)) {
+            let (a, b) = (*a as usize, *b as usize);
+            rhs[0] = ax[a] - ax[b];
+            rhs[1] = ay[a] - ay[b];
+        }
+        self.matrix.solve(&mut self.rhs);
+        self.push(ax, ay);
+        self.keep_multipliers(1.0);
+    }
+
+    /// Takes `scale` times the last solution as the multipliers.
+    pub fn keep_multipliers(&mut self, scale: f64) {
+        let n = self.rods.a.len();
+        self.rods.lambda.iter_mut().zip(&self.rhs).for_each(|(to, from)| *to = scale * from);
+        for (to, from) in self.pins.lambda.iter_mut().zip(self.rhs[n..].chunks_exact(2)) {
+            *to = scale * DVec2::new(from[0], from[1]);
+        }
+    }
+
+    /// Whether forces depend on velocities.
+    pub fn damped(&self) -> bool {
+        self.drag > 0.0 || self.springs.damped || self.held.is_some()
+    }
+
+    /// Rates at the present positions, velocities and multipliers; `load` is scratch.
+    ///
+    /// By Gershgorin's bound on M⁻¹K, row by row: a spring along n adds 2 w k (nₓ² + |nₓ n_y|) to a node's x, its tension and that of a
+    /// rod 2 w |λ|. A damper c makes a node no faster than 2 w Σ c.
+    pub fn rates(&self, load: &mut Vec<f64>) -> Rates {
+        let nodes = &self.nodes;
+        load.clear();
+        load.resize(2 * nodes.len(), 0.0);
+        let (x, y) = load.split_at_mut(nodes.len());
+        let mut turn = 0.0f64;
+        for (r, lambda) in self.rods.lambda.iter().enumerate() {
+            let (a, b) = (self.rods.a[r] as usize, self.rods.b[r] as usize);
+            x[a] += lambda.abs();
+            x[b] += lambda.abs();
+            let (vx, vy) = (nodes.vx[b] - nodes.vx[a], nodes.vy[b] - nodes.vy[a]);
+            turn = turn.max((vx * vx + vy * vy) / self.rods.square[r]);
+        }
+        if let Some(held) = &self.held {
+            x[held.node] += 0.5 * held.stiffness;
+        }
+        y.copy_from_slice(x);
+        self.springs.add_loads(nodes, x, y);
+        let mut swing = largest(&nodes.w, x).max(largest(&nodes.w, y)).sqrt();
+        if self.damped() {
+            x.fill(0.0);
+            for ((a, b), c) in self.springs.a.iter().zip(&self.springs.b).zip(&self.springs.damping) {
+                x[*a as usize] += c;
+                x[*b as usize] += c;
+            }
+            if let Some(held) = &self.held {
+                x[held.node] += 0.5 * held.damping;
+            }
+            swing = swing.max(largest(&nodes.w, x)).max(self.drag);
+        }
+        Rates { swing, turn: turn.sqrt() }
+    }
+}
+
+/// Largest 2 w load.
+fn largest(w: &[f64], load: &[f64]) -> f64 {
+    w.iter().zip(load).fold(0.0f64, |most, (w, load)| most.max(2.0 * w * load))
+}
