@@ -1,6 +1,8 @@
 //! What a step tells about itself.
 
 use super::id::Id;
+use super::linalg::sparse::Path;
+use super::method::Integrator;
 
 /// The stages of a substep, in order, as in the loop of `step.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +69,10 @@ pub struct StepReport {
     /// Steps of islands carried whole, the largest number of one island, and those taken back, all islands together.
     pub island_steps: u32,
     pub retries: u32,
-    /// Highest order of a Taylor step.
+    /// What carried the largest island in this step, and the matrix of its constraints; none without islands or rows.
+    pub integrator: Option<Integrator>,
+    pub matrix: Option<Path>,
+    /// Highest order of an island's steps.
     pub order: u32,
     /// Estimate of the local error of this step, in parts of an island's size; 0 if nothing estimates it.
     pub local_error: f64,

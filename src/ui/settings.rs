@@ -3,7 +3,7 @@
 use super::format;
 use super::widgets::{self, Number};
 use crate::app::{Command, Frame};
-use crate::engine::{DVec2, Integrator, Method, Solver, Tuning};
+use crate::engine::{DVec2, Integrator, Method, Solver, StepReport, Tuning};
 use egui::Ui;
 
 /// What a double-click resets to: the values with which the scene was opened.
@@ -248,6 +248,9 @@ fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Co
     if !frame.plan.is_empty() {
         widgets::note(ui, &frame.plan);
     }
+    if let Some(carried) = last_step(&frame.report) {
+        widgets::note(ui, &carried);
+    }
     if frame.report.given_up > 0 {
         let islands = format::count(frame.report.given_up);
         let note = format!(
@@ -256,6 +259,23 @@ fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Co
         );
         widgets::note(ui, &note);
     }
+}
+
+/// How islands went through the last step: "Last step: RATTLE, order 2, 4 substeps; tridiagonal; local error 2e-7 of the size."
+fn last_step(report: &StepReport) -> Option<String> {
+    let integrator = report.integrator?;
+    let substeps = if report.island_steps == 1 { "1 substep".to_owned() } else { format!("{} substeps", report.island_steps) };
+    let mut text = format!("Last step: {}, order {}, {substeps}", integrator.name(), report.order);
+    if let Some(matrix) = report.matrix {
+        text += &format!("; matrix {}", matrix.name());
+    }
+    if report.redundant > 0 {
+        text += &format!("; redundant rows dropped: {}", report.redundant);
+    }
+    if report.local_error > 0.0 {
+        text += &format!("; local error about {:.0e} of the size", report.local_error);
+    }
+    Some(text + ".")
 }
 
 /// Rate and length of a step: the same number twice, as people think of either.

@@ -48,13 +48,19 @@ impl Islands {
     /// tolerance (contradicting constraints, springs too stiff to be followed in real time) are given up for this step.
     pub fn advance(&mut self, world: &World, time: f64, report: &mut StepReport) {
         self.given_up.clear();
+        let mut largest = 0;
         for index in 0..self.islands.len() {
-            let outcome = self.carry(index, world, time);
+            let (integrator, outcome) = self.carry(index, world, time);
             let system = &self.islands[index].1;
             report.retries += outcome.retries;
             if outcome.failed || !in_range(system) {
                 self.given_up.push(index);
                 continue;
+            }
+            if system.nodes.len() > largest {
+                largest = system.nodes.len();
+                report.integrator = Some(integrator);
+                report.matrix = (!system.unconstrained()).then_some(system.matrix.summary.path);
             }
             report.island_steps = report.island_steps.max(outcome.steps);
             report.order = report.order.max(outcome.order);
@@ -64,31 +70,36 @@ impl Islands {
         report.given_up = self.given_up.len();
     }
 
-    /// Carries one island through `time` [s].
-    fn carry(&mut self, index: usize, world: &World, time: f64) -> Outcome {
+    /// Carries one island through `time` [s]; says what did it.
+    fn carry(&mut self, index: usize, world: &World, time: f64) -> (Integrator, Outcome) {
         let (plan, system) = &mut self.islands[index];
         system.load(world, time);
         let tolerance = plan.tolerance * system.length;
-        let pace = plan.steps.map_or(Pace::Within(tolerance), Pace::Steps);
-        match plan.integrator {
-            Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, plan.steps.unwrap_or(1)),
-            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, plan.steps.unwrap_or(1)),
-            Integrator::Nystrom4 if Nystrom::takes(system) => self.nystrom.advance(system, time, pace, 4),
-            Integrator::Nystrom6 if Nystrom::takes(system) => self.nystrom.advance(system, time, pace, 6),
+        let (pace, steps) = (plan.steps.map_or(Pace::Within(tolerance), Pace::Steps), plan.steps.unwrap_or(1));
+        let mut integrator = plan.integrator;
+        if matches!(integrator, Integrator::Nystrom4 | Integrator::Nystrom6) && !Nystrom::takes(system) {
+            integrator = Integrator::Taylor;
+        }
+        if integrator == Integrator::Rattle {
             // A factor that fills in costs more than all else, and RATTLE takes one a substep.
-            Integrator::Rattle if plan.steps.is_none() && system.matrix.summary.path == Path::Sparse => {
-                self.energy_momentum[index].advance(system, time, 1)
-            }
-            Integrator::Rattle => {
+            let costly = system.matrix.summary.path == Path::Sparse;
+            if plan.steps.is_some() || !costly {
                 let outcome = self.rattle.advance(system, time, pace);
                 if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
-                    return outcome;
+                    return (integrator, outcome);
                 }
                 system.load(world, time);
-                self.energy_momentum[index].advance(system, time, 1)
             }
-            _ => self.taylor.advance(system, time, tolerance),
+            integrator = Integrator::EnergyMomentum;
         }
+        let outcome = match integrator {
+            Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, steps),
+            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
+            Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
+            Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
+            _ => self.taylor.advance(system, time, tolerance),
+        };
+        (integrator, outcome)
     }
 
     /// Islands that the last [`Islands::advance`] gave up, by index in the plan, ascending.

@@ -17,6 +17,19 @@ pub enum Path {
     Sparse,
 }
 
+impl Path {
+    /// The name of the matrix, as shown to a user.
+    pub fn name(self) -> &'static str {
+        match self {
+            Path::Diagonal => "diagonal",
+            Path::Chain { block: 1 } => "tridiagonal",
+            Path::Chain { .. } => "block tridiagonal",
+            Path::Tree => "sparse, without fill",
+            Path::Sparse => "sparse, with fill",
+        }
+    }
+}
+
 /// Connected components by [`Path`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Components {
