@@ -71,6 +71,8 @@ pub struct Plan {
 pub(crate) struct IslandPlan {
     pub group: Group,
     pub integrator: Integrator,
+    /// Some body collides: in steps in which something is near the island goes through the substeps.
+    pub guarded: bool,
     /// Local error allowed in a step, in parts of the island's size.
     pub tolerance: f64,
     /// Steps within a step of the world, where the integrator does not find them itself.
@@ -126,18 +128,24 @@ impl Plan {
         for (index, group) in smooth.into_iter().enumerate() {
             if self.without.binary_search(&index).is_err() {
                 group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
-                self.islands.push(IslandPlan::of(world, method, group));
+                let guarded = group.bodies.iter().any(|body| self.touches(world, *body));
+                self.islands.push(IslandPlan { guarded, ..IslandPlan::of(world, method, group) });
             }
         }
         let bodies = &world.bodies;
         self.rest = (0..bodies.len()).any(|i| !self.in_island[i] && bodies.motion[i] != Motion::Static);
     }
 
-    /// Whether an island moves smoothly: none of its bodies can touch anything, no anchor turns with a body, no hold turns one.
+    /// Whether a body can touch anything.
+    fn touches(&self, world: &World, body: u32) -> bool {
+        self.contacts && world.bodies.collides[body as usize] && world.bodies.radius[body as usize] > 0.0
+    }
+
+    /// Whether an island moves smoothly as long as nothing touches it: no anchor turns with a body, no hold turns one. Free bodies
+    /// that can touch are a pile, a stack or balls in a box: contacts are what their scene is about.
     fn smooth(&self, world: &World, group: &Group) -> bool {
         let (bodies, c) = (&world.bodies, &world.constraints);
-        let touches =
-            |body: &u32| self.contacts && bodies.collides[*body as usize] && bodies.radius[*body as usize] > 0.0;
+        let touches = |body: &u32| group.constraints.is_empty() && self.touches(world, *body);
         let turns = |body: u32, at| body != WORLD && at != DVec2::ZERO;
         let held = |body: &u32| self.turned == Some(bodies.id[*body as usize]);
         let turned =
@@ -232,6 +240,9 @@ impl Plan {
             };
         }
         sentence.push_str(", solved directly");
+        if self.islands.iter().any(|island| island.guarded) {
+            sentence.push_str(" while nothing is near");
+        }
     }
 
     fn describe(&self, world: &World, method: &Method) -> String {
@@ -312,7 +323,7 @@ impl IslandPlan {
         };
         let steps = (!method.automatic).then_some(method.substeps);
         let local = if integrator == Integrator::Rattle { LOCAL_SECOND } else { LOCAL };
-        IslandPlan { group, integrator, tolerance: local * method.accuracy, steps }
+        IslandPlan { group, integrator, guarded: false, tolerance: local * method.accuracy, steps }
     }
 }
 

@@ -80,6 +80,8 @@ pub struct StepReport {
     pub redundant: usize,
     /// Islands that could not be carried to the accuracy in this step and went through the substeps instead.
     pub given_up: usize,
+    /// Islands that something came near to in this step, so that they went through the substeps.
+    pub near: usize,
     /// Sweeps of the solver, summed over the substeps.
     pub iterations: u32,
     /// Largest change of a row's velocity (PGS, [m/s]) or of a constraint's value (projection, [m]) in the last sweep.

@@ -89,8 +89,8 @@ impl Stepper {
         let mut laps = Laps::start(self.clock);
         self.plan(world);
         let mut report = StepReport::default();
-        self.islands.advance(world, self.method.step_seconds(), &mut report);
-        let falls_back = report.given_up > 0;
+        self.islands.advance(world, &self.plan, self.method.step_seconds(), &mut report);
+        let falls_back = !self.islands.given_up().is_empty();
         if falls_back {
             self.fallback.leave_out(world, &self.method, self.islands.given_up());
             swap(&mut self.plan, &mut self.fallback);
@@ -313,6 +313,9 @@ impl Stepper {
             if let Some(grip) = &mut world.grip {
                 grip.force = self.grip_force;
             }
+        }
+        if !self.plan.rest {
+            world.contacts.clear();
         }
         self.islands.store(world, self.method.step_seconds());
         world.advance_clock(self.method.hz);

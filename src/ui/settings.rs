@@ -251,6 +251,10 @@ fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Co
     if let Some(carried) = last_step(&frame.report) {
         widgets::note(ui, &carried);
     }
+    if frame.report.near > 0 {
+        let islands = format::count(frame.report.near);
+        widgets::note(ui, &format!("Islands with something near, left to the substeps in this step: {islands}."));
+    }
     if frame.report.given_up > 0 {
         let islands = format::count(frame.report.given_up);
         let note = format!(
@@ -264,7 +268,8 @@ fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Co
 /// How islands went through the last step: "Last step: RATTLE, order 2, 4 substeps; tridiagonal; local error 2e-7 of the size."
 fn last_step(report: &StepReport) -> Option<String> {
     let integrator = report.integrator?;
-    let substeps = if report.island_steps == 1 { "1 substep".to_owned() } else { format!("{} substeps", report.island_steps) };
+    let substeps =
+        if report.island_steps == 1 { "1 substep".to_owned() } else { format!("{} substeps", report.island_steps) };
     let mut text = format!("Last step: {}, order {}, {substeps}", integrator.name(), report.order);
     if let Some(matrix) = report.matrix {
         text += &format!("; matrix {}", matrix.name());

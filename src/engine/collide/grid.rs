@@ -7,7 +7,7 @@ use glam::DVec2;
 
 /// Bodies of about one size in cells at least as wide as the reach of a pair.
 #[derive(Debug, Default)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     cell: f64,
     /// (cell, body), sorted.
     entries: Vec<(u64, u32)>,

@@ -7,6 +7,7 @@
 mod accelerations;
 pub(crate) mod forces;
 pub(crate) mod matrix;
+mod near;
 pub(crate) mod nodes;
 pub(crate) mod partition;
 pub(crate) mod projection;

@@ -1,6 +1,7 @@
 //! Carries all islands of a plan through a step.
 
 use super::System;
+use super::near::Surroundings;
 use crate::engine::Integrator;
 use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
@@ -27,6 +28,7 @@ pub(crate) struct Islands {
     nystrom: Nystrom,
     /// By island: it keeps the order in which the island is eliminated.
     energy_momentum: Vec<EnergyMomentum>,
+    surroundings: Surroundings,
     /// Indices of the islands that could not be carried in this step, ascending.
     given_up: Vec<usize>,
 }
@@ -44,12 +46,18 @@ impl Islands {
         }
     }
 
-    /// Carries all islands through `time` [s], without touching the world. Those whose equations cannot be solved to the
+    /// Carries all islands through `time` [s], without touching the world. Those that something is near to, and those whose equations cannot be solved to the
     /// tolerance (contradicting constraints, springs too stiff to be followed in real time) are given up for this step.
-    pub fn advance(&mut self, world: &World, time: f64, report: &mut StepReport) {
+    pub fn advance(&mut self, world: &World, plan: &Plan, time: f64, report: &mut StepReport) {
         self.given_up.clear();
+        self.surroundings.find(world, plan, &self.islands, time);
         let mut largest = 0;
         for index in 0..self.islands.len() {
+            if self.surroundings.near[index] {
+                self.given_up.push(index);
+                report.near += 1;
+                continue;
+            }
             let (integrator, outcome) = self.carry(index, world, time);
             let system = &self.islands[index].1;
             report.retries += outcome.retries;
@@ -67,7 +75,7 @@ impl Islands {
             report.local_error = report.local_error.max(outcome.error / system.length);
             report.redundant += system.matrix.pivots.dropped;
         }
-        report.given_up = self.given_up.len();
+        report.given_up = self.given_up.len() - report.near;
     }
 
     /// Carries one island through `time` [s]; says what did it.
