@@ -97,15 +97,14 @@ fn what_is_not_understood_ends_with_two_and_a_hint() {
 #[test]
 fn scenes_are_listed_by_name_and_title() {
     let list = prints(&["scenes"]);
-    let [sandbox, truth] = [tautline::scene::shipped(), tautline::scene::truth_scenes()];
-    assert_eq!(list.lines().count(), 1 + sandbox.len() + 1 + truth.len());
+    let sections = tautline::scene::sections();
+    let [sandbox, hard, _] = sections.map(|(_, scenes)| scenes);
+    assert_eq!(list.lines().count(), sections.iter().map(|(_, scenes)| 1 + scenes.len()).sum::<usize>());
     let lines: Vec<&str> = list.lines().collect();
-    assert_eq!((lines[0], lines[sandbox.len() + 1]), ("Sandbox:", "Truth:"));
+    assert_eq!((lines[0], lines[sandbox.len() + 1]), ("Sandbox:", "Hard cases:"));
     assert!(lines[1].starts_with("  bridge ") && lines[1].ends_with("Rope bridge"));
-    assert!(
-        lines[sandbox.len() + 2].starts_with("  truth/pendulum ")
-            && lines[sandbox.len() + 2].ends_with("Exact pendulum")
-    );
+    let first_exact = lines[sandbox.len() + hard.len() + 3];
+    assert!(first_exact.starts_with("  truth/pendulum ") && first_exact.ends_with("Exact pendulum"));
 }
 
 #[test]

@@ -351,7 +351,7 @@ fn a_name_that_no_scene_has_is_answered_and_escape_shows_all_scenes_again() {
 
 #[test]
 fn the_list_of_scenes_follows_the_scene_that_is_open() {
-    let last = scene::shipped().last().expect("there are scenes");
+    let last = scene::every_scene().last().expect("there are scenes");
     let list = |name: &str, opened: u64| {
         let info = SceneInfo { name: name.into(), opened, ..(*bridge().scene).clone() };
         Frame { scene: Arc::new(info), ..bridge() }
@@ -386,7 +386,7 @@ fn typing_a_path_opens_the_file_and_save_writes_one() {
 #[test]
 fn the_brackets_go_through_the_scenes() {
     let mut harness = harness(bridge());
-    let names: Vec<&str> = scene::shipped().iter().map(|scene| scene.name).collect();
+    let names: Vec<&str> = scene::every_scene().iter().map(|scene| scene.name).collect();
     harness.key_press(Key::CloseBracket);
     harness.run();
     harness.key_press(Key::OpenBracket);
@@ -710,7 +710,7 @@ fn the_palette_reaches_every_line_and_says_when_there_is_none() {
     harness.run();
     harness.key_press(Key::Enter);
     harness.run();
-    let last = scene::shipped().last().expect("there are scenes").name;
+    let last = scene::every_scene().last().expect("there are scenes").name;
     assert!(matches!(&taken(&mut harness)[..], [Command::Open(name)] if name == last), "the last line is a scene");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
     harness.run();

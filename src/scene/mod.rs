@@ -25,7 +25,7 @@ pub use generator::Generator;
 pub use read::{LARGEST_FILE, open, parse, read_file};
 pub(crate) use save::behind_links;
 pub use save::{save, to_ron};
-pub use shipped::{Shipped, find_shipped, shipped, truth_scenes};
+pub use shipped::{Shipped, every_scene, find_shipped, hard_scenes, sections, shipped, truth_scenes};
 
 use crate::engine::{DVec2, Id, Method, World};
 use std::collections::BTreeMap;

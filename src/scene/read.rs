@@ -4,7 +4,7 @@ use super::document::{Document, VERSION};
 use super::error::{Fault, Place, Problem, SceneError, shown};
 use super::locate::{line_and_column, locate};
 use super::nearest::nearest;
-use super::{Setup, find_shipped, shipped, truth_scenes};
+use super::{Setup, every_scene, find_shipped};
 use ron::Options;
 use ron::error::SpannedError;
 use ron::extensions::Extensions;
@@ -115,7 +115,7 @@ fn unreadable(error: &std::io::Error) -> Problem {
 
 /// Names the shipped scene that was probably meant, if the file does not exist.
 fn suggest_shipped(mut error: SceneError, name: &str) -> SceneError {
-    if let Some(known) = nearest(name, shipped().iter().chain(truth_scenes()).map(|scene| scene.name))
+    if let Some(known) = nearest(name, every_scene().iter().map(|scene| scene.name))
         && matches!(error.place, Place::File(_))
         && !Path::new(name).exists()
     {

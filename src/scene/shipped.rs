@@ -1,5 +1,7 @@
 //! The scenes that come with the program, inside it.
 
+use std::sync::LazyLock;
+
 /// A scene inside the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shipped {
@@ -9,6 +11,13 @@ pub struct Shipped {
     pub title: &'static str,
     /// The scene file.
     pub text: &'static str,
+}
+
+impl Shipped {
+    /// Title of the section that it is listed in.
+    pub fn section(&self) -> &'static str {
+        sections().into_iter().find(|(_, scenes)| scenes.contains(self)).map_or("", |(title, _)| title)
+    }
 }
 
 macro_rules! shipped {
@@ -53,7 +62,43 @@ pub fn truth_scenes() -> &'static [Shipped] {
     }
 }
 
-/// The scene of that name, of the sandbox or with a truth.
+/// Scenes that break engines, with a pass for each (`cargo test --test hard`).
+pub fn hard_scenes() -> &'static [Shipped] {
+    shipped! {
+        "hard/projectile": "Projectile",
+        "hard/oscillator": "Oscillator",
+        "hard/damped_oscillator": "Damped oscillators",
+        "hard/pendulum": "Pendulum from the horizontal",
+        "hard/small_pendulum": "Pendulum at one degree",
+        "hard/double_pendulum": "Double pendulum",
+        "hard/rope": "Rope of fifty links",
+        "hard/heavy_rope": "A hundred kilograms on twenty grams",
+        "hard/hanging_chain": "Hanging chain",
+        "hard/stiff_with_soft": "Stiff with soft",
+        "hard/ball_and_chain": "Ball and chain",
+        "hard/ball_and_chain_light": "Ball and chain, lighter",
+        "hard/stretched_chain": "Stretched chain",
+        "hard/far_chain": "Far chain",
+        "hard/joint_grid": "Joint grid of ten thousand",
+        "hard/rigid_net": "Rigid net",
+        "hard/braced_net": "Rigid net with diagonals",
+        "hard/wheel": "Braced wheel",
+    }
+}
+
+/// All scenes, section by section, as they are listed.
+pub fn sections() -> [(&'static str, &'static [Shipped]); 3] {
+    [("Sandbox", shipped()), ("Hard cases", hard_scenes()), ("Exact motion", truth_scenes())]
+}
+
+/// All scenes in one list.
+pub fn every_scene() -> &'static [Shipped] {
+    static ALL: LazyLock<Vec<Shipped>> =
+        LazyLock::new(|| sections().into_iter().flat_map(|(_, scenes)| scenes).copied().collect());
+    &ALL
+}
+
+/// The scene of that name, of any section.
 pub fn find_shipped(name: &str) -> Option<&'static Shipped> {
-    shipped().iter().chain(truth_scenes()).find(|scene| scene.name == name)
+    every_scene().iter().find(|scene| scene.name == name)
 }

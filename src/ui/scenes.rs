@@ -70,7 +70,13 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
     let area = ScrollArea::vertical().id_salt("scenes").max_height(height).auto_shrink([false, true]);
     widgets::scroll(ui, area, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
+        let mut section = scenes.first().map_or("", Shipped::section);
         for scene in found {
+            if scene.section() != section {
+                section = scene.section();
+                ui.add_space(theme::GRID);
+                widgets::note(ui, section);
+            }
             let here = scene.name == frame.scene.name;
             let response = entry(ui, scene, here);
             if here && state.listed != Some(frame.scene.opened) {

@@ -11,7 +11,7 @@ use super::{canvas, fault, finder, help, inspector, palette, scenes, settings, s
 use crate::app::{Action, Camera, Command, Edit, Feedback, Frame, Spawn, Tools};
 use crate::engine::{DVec2, Id};
 use crate::render::{Extra, ViewOptions};
-use crate::scene::{Shipped, shipped};
+use crate::scene::{Shipped, every_scene};
 use egui::{CentralPanel, Margin, Panel, Rect, ScrollArea, Ui};
 use std::sync::Arc;
 
@@ -56,7 +56,7 @@ pub struct ShellOutput {
 impl Shell {
     /// A shell that lists the shipped scenes.
     pub fn new() -> Shell {
-        Shell { scenes: shipped(), ..Shell::default() }
+        Shell { scenes: every_scene(), ..Shell::default() }
     }
 
     /// Gives `ctx` the fonts and the theme. [`Shell::show`] does so too, but then the first pass is still laid out with

@@ -77,6 +77,19 @@ impl Grid {
         (0..self.columns).map(node).collect()
     }
 
+    /// Joins the diagonals of every mesh, at the distances at which their nodes stand.
+    pub(super) fn brace(&self, world: &mut World, nodes: &[Id], kind: impl Fn(f64) -> Kind) -> Result<(), Fault> {
+        let (columns, rows) = (self.columns as usize, self.rows as usize);
+        for corner in (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| row * columns + column)) {
+            for (a, b) in [(nodes[corner], nodes[corner + columns + 1]), (nodes[corner + 1], nodes[corner + columns])] {
+                let at = |id: Id| world.bodies().index_of(id).map_or(DVec2::ZERO, |i| world.bodies().position[i]);
+                let length = (at(b) - at(a)).length();
+                world.add_constraint(&Constraint::between(kind(length), a, b))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Joins every node to the one `right` columns and `down` rows further, where there is one.
     pub(super) fn join(
         &self,

@@ -1,4 +1,4 @@
-//! A net: a grid of particles joined by rods (or ropes, or springs), without diagonals.
+//! A net: a grid of particles joined by rods (or ropes, or springs), with diagonals or without.
 
 use super::super::error::Fault;
 use super::grid::Grid;
@@ -22,6 +22,9 @@ pub struct Net {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chord: Option<f64>,
     pub link: Link,
+    /// Whether the diagonals of every mesh are joined too, at the length that they are built with.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub braced: bool,
     pub pins: Pins,
     /// Mass of a node [kg].
     pub mass: f64,
@@ -41,6 +44,7 @@ impl Default for Net {
             spacing: 0.25,
             chord: None,
             link: Link::Rod,
+            braced: false,
             pins: Pins::Corners,
             mass: 0.05,
             radius: 0.04,
@@ -76,6 +80,10 @@ impl Generate for Net {
         let node = Body { mass: self.mass, radius: self.radius, collides: self.collides, group, ..Body::default() };
         let nodes = grid.add_nodes(world, &node)?;
         grid.join(world, &nodes, [1, 0], |length| self.link.over(length))?;
-        grid.join(world, &nodes, [0, 1], |length| self.link.over(length))
+        grid.join(world, &nodes, [0, 1], |length| self.link.over(length))?;
+        if self.braced {
+            grid.brace(world, &nodes, |length| self.link.over(length))?;
+        }
+        Ok(())
     }
 }
