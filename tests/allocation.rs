@@ -2,7 +2,7 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, Ordering};
-use tautline::engine::{Integrator, Method, Solver, Stepper, World};
+use tautline::engine::{Integrator, LinearSolver, Method, Solver, Stepper, World};
 use tautline::scene;
 
 /// The system's allocator, counting.
@@ -68,5 +68,10 @@ fn a_warm_step_allocates_nothing() {
             let found = allocations(name, |method| Method { integrator, ..method }, 10);
             assert_eq!(found, 0, "{name}, {}", integrator.name());
         }
+    }
+    for linear in LinearSolver::ALL {
+        let found =
+            allocations("truth/bridge", |method| Method { integrator: Integrator::Rattle, linear, ..method }, 10);
+        assert_eq!(found, 0, "{}", linear.name());
     }
 }

@@ -51,7 +51,7 @@ fn rows(csv: &str) -> Vec<Vec<f64>> {
 
 const TRAJECTORY: &str = "time,id,x,y,angle,vx,vy,omega";
 const MEASURES: &str = "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,violation_max,\
-                        penetration_max,contacts,step_us";
+                        penetration_max,contacts,step_us,local_error";
 
 #[test]
 fn every_command_explains_itself() {
@@ -211,13 +211,15 @@ fn settings_on_the_command_line_replace_those_of_the_scene() {
     ] {
         assert_ne!(plain, hash(more), "{more:?} changes the run");
     }
+    let exact = hash(&["--accuracy", "1e-6"]);
+    assert_ne!(exact, hash(&["--accuracy", "1e-6", "--linear", "gauss-seidel"]), "ten sweeps do not solve it");
 }
 
 #[test]
 fn the_summary_stays_out_of_rows_on_standard_output() {
     let output = tautline(&["run", "pendulum", "--seconds", "0.1", "--measures", "-", "--hash"]);
     let (out, messages) = (text(&output.stdout), text(&output.stderr));
-    assert!(out.lines().all(|line| line.split(',').count() == 11), "{out}");
+    assert!(out.lines().all(|line| line.split(',').count() == 12), "{out}");
     assert_eq!(messages.lines().count(), 2, "summary and hash: {messages}");
 }
 

@@ -125,7 +125,12 @@ fn bridge() -> Frame {
             ..measures
         };
         let busy = 1.0 + 0.3 * (1.7 * time).sin();
-        plots.push(Sample { measures, stage_us: stage_us.map(|us| us * busy), step_us: 310.0 * busy });
+        plots.push(Sample {
+            measures,
+            stage_us: stage_us.map(|us| us * busy),
+            step_us: 310.0 * busy,
+            local_error: 1e-9 * (1.0 + busy),
+        });
     }
     let measures = plots.read().back().expect("pushed above").measures;
     Frame {

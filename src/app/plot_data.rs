@@ -19,12 +19,14 @@ pub struct Sample {
     pub stage_us: [f64; 6],
     /// Time of the whole step [µs].
     pub step_us: f64,
+    /// Estimate of the step's local error, in parts of an island's size; 0 where nothing estimates it.
+    pub local_error: f64,
 }
 
 impl Sample {
     /// What a step left behind.
     pub fn new(measures: Measures, report: &StepReport) -> Sample {
-        Sample { measures, stage_us: report.stage_us, step_us: report.step_us }
+        Sample { measures, stage_us: report.stage_us, step_us: report.step_us, local_error: report.local_error }
     }
 }
 

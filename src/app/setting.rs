@@ -8,7 +8,8 @@ const SEVERAL: &str = "settings";
 /// Which part of a method is another one; `None` if both are the same.
 pub fn method(from: &Method, to: &Method) -> Option<&'static str> {
     // All fields by name, so that a new one cannot be left out.
-    let Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, accuracy } = *from;
+    let Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, linear, accuracy } =
+        *from;
     one_of(&[
         (hz != to.hz, "step rate"),
         (substeps != to.substeps, "substeps"),
@@ -18,6 +19,7 @@ pub fn method(from: &Method, to: &Method) -> Option<&'static str> {
         (warm_start != to.warm_start, "warm starting"),
         (baumgarte != to.baumgarte, "Baumgarte factor"),
         (automatic != to.automatic, "choice by accuracy"),
+        (linear != to.linear, "linear solver"),
         (accuracy != to.accuracy, "accuracy"),
     ])
 }

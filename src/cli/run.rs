@@ -2,7 +2,7 @@
 
 use super::numbers;
 use super::output::{Output, is_same, is_stdout};
-use crate::engine::{Divergence, Integrator, Method, Solver, StepReport, Stepper, World};
+use crate::engine::{Divergence, Integrator, LinearSolver, Method, Solver, StepReport, Stepper, World};
 use crate::measure::Measures;
 use crate::scene;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -49,6 +49,9 @@ pub struct RunArguments {
     /// Wanted accuracy, 1e-14 to 0.1: error after a second or so, in parts of the scene's size; the plan chooses the rest
     #[arg(long, value_name = "TOL", value_parser = numbers::accuracy)]
     accuracy: Option<f64>,
+    /// What solves the rows of islands that are carried whole; those that sweep take --iterations sweeps at most
+    #[arg(long, value_parser = linear())]
+    linear: Option<LinearSolver>,
     /// Start every solve from zero instead of the last multipliers
     #[arg(long)]
     no_warm_start: bool,
@@ -65,6 +68,11 @@ fn integrator() -> impl TypedValueParser<Value = Integrator> {
     PossibleValuesParser::new(Integrator::ALL.map(Integrator::key)).map(move |key| named(key).unwrap_or_default())
 }
 
+fn linear() -> impl TypedValueParser<Value = LinearSolver> {
+    let named = |key: String| LinearSolver::ALL.into_iter().find(|solver| solver.key() == key);
+    PossibleValuesParser::new(LinearSolver::ALL.map(LinearSolver::key)).map(move |key| named(key).unwrap_or_default())
+}
+
 fn solver() -> impl TypedValueParser<Value = Solver> {
     PossibleValuesParser::new(["projection", "pgs"])
         .map(|name| if name == "projection" { Solver::Projection } else { Solver::Pgs })
@@ -78,6 +86,7 @@ impl RunArguments {
             iterations: self.iterations.unwrap_or(scene.iterations),
             integrator: self.integrator.unwrap_or(scene.integrator),
             solver: self.solver.unwrap_or(scene.solver),
+            linear: self.linear.unwrap_or(scene.linear),
             warm_start: scene.warm_start && !self.no_warm_start,
             baumgarte: self.baumgarte.unwrap_or(scene.baumgarte),
             automatic: self.accuracy.is_some() && self.integrator.is_none() || scene.automatic && !self.by_hand(),
@@ -172,9 +181,9 @@ pub fn run(mut world: World, method: Method, sampling: Sampling, rows: &mut Rows
     let sampling = Sampling { every: sampling.every.max(method.step_seconds()), ..sampling };
     let last = (sampling.seconds * method.hz).round() as u64;
     rows.headers()?;
-    rows.write(&world, 0.0)?;
+    rows.write(&world, Since::default())?;
     let mut sample = 1;
-    let mut since_row = MeanTime::default();
+    let mut since_row = Sums::default();
     for step in 1..=last {
         let report = stepper.step(&mut world);
         if let Some(divergence) = report.divergence {
@@ -191,23 +200,32 @@ pub fn run(mut world: World, method: Method, sampling: Sampling, rows: &mut Rows
     Ok(Finish { world, steps: last, divergence: None })
 }
 
-/// Mean time of a step since the row before [µs].
-#[derive(Default)]
-struct MeanTime {
-    sum: f64,
-    steps: f64,
+/// What the steps since the row before tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Since {
+    /// Mean time of a step [µs].
+    step_us: f64,
+    /// Largest estimate of a step's local error, in parts of an island's size.
+    local_error: f64,
 }
 
-impl MeanTime {
+#[derive(Default)]
+struct Sums {
+    step_us: f64,
+    steps: f64,
+    local_error: f64,
+}
+
+impl Sums {
     fn add(&mut self, report: &StepReport) {
-        self.sum += report.step_us;
+        self.step_us += report.step_us;
         self.steps += 1.0;
+        self.local_error = self.local_error.max(report.local_error);
     }
 
-    fn take(&mut self) -> f64 {
-        let mean = self.sum / self.steps;
-        *self = MeanTime::default();
-        mean
+    fn take(&mut self) -> Since {
+        let Sums { step_us, steps, local_error } = std::mem::take(self);
+        Since { step_us: step_us / steps, local_error }
     }
 }
 
@@ -215,7 +233,7 @@ impl MeanTime {
 pub struct Rows<'a> {
     /// A row a body: `time,id,x,y,angle,vx,vy,omega`.
     pub trajectory: Option<&'a mut dyn Write>,
-    /// A row an instant: energies, momenta, violation, penetration, contacts and time of a step.
+    /// A row an instant: energies, momenta, violation, penetration, contacts, time of a step and its local error.
     pub measures: Option<&'a mut dyn Write>,
 }
 
@@ -226,13 +244,13 @@ impl Rows<'_> {
         }
         if let Some(out) = &mut self.measures {
             write!(out, "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,")?;
-            writeln!(out, "violation_max,penetration_max,contacts,step_us")?;
+            writeln!(out, "violation_max,penetration_max,contacts,step_us,local_error")?;
         }
         Ok(())
     }
 
     /// One instant. `{:?}` writes the fewest digits that are read back to the same bits.
-    fn write(&mut self, world: &World, step_us: f64) -> std::io::Result<()> {
+    fn write(&mut self, world: &World, since: Since) -> std::io::Result<()> {
         if let Some(out) = &mut self.trajectory {
             for (id, body) in world.bodies().iter() {
                 let (p, v, spin) = (body.position, body.velocity, body.spin.unwrap_or_default());
@@ -245,7 +263,8 @@ impl Rows<'_> {
             let (time, momentum, contacts) = (m.time, m.momentum, m.contacts);
             write!(out, "{time:?},{:?},{:?},{:?},", m.kinetic, m.potential, m.elastic)?;
             write!(out, "{:?},{:?},{:?},", momentum.x, momentum.y, m.angular_momentum)?;
-            writeln!(out, "{:?},{:?},{contacts},{step_us:?}", m.violation_max, m.penetration_max)?;
+            let Since { step_us, local_error } = since;
+            writeln!(out, "{:?},{:?},{contacts},{step_us:?},{local_error:?}", m.violation_max, m.penetration_max)?;
         }
         Ok(())
     }

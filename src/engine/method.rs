@@ -116,6 +116,85 @@ impl Solver {
     }
 }
 
+/// What solves A x = b, A = J M⁻¹ Jᵀ, for an island that is carried whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LinearSolver {
+    /// L D Lᵀ along the graph of the constraints: cost linear in the rows of chains and trees.
+    #[default]
+    SparseLdl,
+    /// Gaussian elimination with pivoting, anew for every right-hand side: 2/3 n³ each.
+    Elimination,
+    /// The same kept as L U: 2/3 n³ once, 2 n² a solve.
+    Lu,
+    /// L Lᵀ, half of it, for positive definite matrices only: fails where rows are redundant.
+    Cholesky,
+    /// QR with column pivoting: the shortest solution where rows are redundant, 2 n³.
+    LeastSquares,
+    /// All rows at once from old values.
+    Jacobi,
+    /// Row after row with the newest values.
+    GaussSeidel,
+    /// Conjugate gradients with the diagonal as preconditioner: n sweeps at most but for rounding.
+    ConjugateGradients,
+}
+
+impl LinearSolver {
+    /// All of them, in the order in which they are listed to a user.
+    pub const ALL: [LinearSolver; 8] = [
+        LinearSolver::SparseLdl,
+        LinearSolver::Elimination,
+        LinearSolver::Lu,
+        LinearSolver::Cholesky,
+        LinearSolver::LeastSquares,
+        LinearSolver::Jacobi,
+        LinearSolver::GaussSeidel,
+        LinearSolver::ConjugateGradients,
+    ];
+
+    /// Most rows of an island that a dense method takes.
+    pub const MOST_DENSE: usize = 400;
+
+    /// The name shown to a user.
+    pub fn name(self) -> &'static str {
+        match self {
+            LinearSolver::SparseLdl => "Sparse LDLᵀ",
+            LinearSolver::Elimination => "Gaussian elimination",
+            LinearSolver::Lu => "LU",
+            LinearSolver::Cholesky => "Cholesky",
+            LinearSolver::LeastSquares => "Least squares by QR",
+            LinearSolver::Jacobi => "Jacobi",
+            LinearSolver::GaussSeidel => "Gauss-Seidel",
+            LinearSolver::ConjugateGradients => "Conjugate gradients",
+        }
+    }
+
+    /// The name on the command line.
+    pub fn key(self) -> &'static str {
+        match self {
+            LinearSolver::SparseLdl => "sparse-ldl",
+            LinearSolver::Elimination => "elimination",
+            LinearSolver::Lu => "lu",
+            LinearSolver::Cholesky => "cholesky",
+            LinearSolver::LeastSquares => "least-squares",
+            LinearSolver::Jacobi => "jacobi",
+            LinearSolver::GaussSeidel => "gauss-seidel",
+            LinearSolver::ConjugateGradients => "conjugate-gradients",
+        }
+    }
+
+    /// Whether it works on all n² entries.
+    pub fn is_dense(self) -> bool {
+        use LinearSolver::*;
+        matches!(self, Elimination | Lu | Cholesky | LeastSquares)
+    }
+
+    /// Whether it sweeps, `iterations` times at most.
+    pub fn is_iterative(self) -> bool {
+        use LinearSolver::*;
+        matches!(self, Jacobi | GaussSeidel | ConjugateGradients)
+    }
+}
+
 /// How a world is to be stepped.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -135,6 +214,8 @@ pub struct Method {
     pub baumgarte: f64,
     /// The plan chooses integrators and steps for the wanted accuracy; the fields above then hold for what can touch.
     pub automatic: bool,
+    /// What solves the rows of islands that are carried whole; methods that sweep take `iterations` sweeps at most.
+    pub linear: LinearSolver,
     /// Wanted accuracy: error after a second or so, in parts of an island's size. Kept by the plan if `automatic`, and by
     /// integrators that adapt their step.
     pub accuracy: f64,
@@ -151,6 +232,7 @@ impl Default for Method {
             warm_start: true,
             baumgarte: 0.5,
             automatic: false,
+            linear: LinearSolver::default(),
             accuracy: 1e-6,
         }
     }

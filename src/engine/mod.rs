@@ -26,7 +26,7 @@ pub use constraint::{Anchor, Constraint, Grip, Kind};
 pub use error::EngineError;
 pub use glam::DVec2;
 pub use id::Id;
-pub use method::{Integrator, Method, Solver};
+pub use method::{Integrator, LinearSolver, Method, Solver};
 pub use plan::Plan;
 pub use report::{Divergence, Stage, StepReport};
 pub use shape::{Shape, Wall};

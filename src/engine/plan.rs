@@ -9,7 +9,7 @@ use super::id::Id;
 use super::island::partition::{Group, partition};
 use super::state::State;
 use super::world::Revision;
-use super::{Integrator, Method, World};
+use super::{Integrator, LinearSolver, Method, World};
 use glam::DVec2;
 use std::fmt::Write;
 
@@ -73,6 +73,8 @@ pub(crate) struct IslandPlan {
     pub integrator: Integrator,
     /// Some body collides: in steps in which something is near the island goes through the substeps.
     pub guarded: bool,
+    /// What solves its rows, and in how many sweeps at most.
+    pub linear: (LinearSolver, u32),
     /// Local error allowed in a step, in parts of the island's size.
     pub tolerance: f64,
     /// Steps within a step of the world, where the integrator does not find them itself.
@@ -239,10 +241,29 @@ impl Plan {
                 (_, None) => write!(sentence, "{} within {:.0e}", spoken(integrator), method.accuracy),
             };
         }
-        sentence.push_str(", solved directly");
+        sentence.push_str(&self.describe_linear(method));
         if self.islands.iter().any(|island| island.guarded) {
             sentence.push_str(" while nothing is near");
         }
+    }
+
+    /// What solves the islands' rows.
+    fn describe_linear(&self, method: &Method) -> String {
+        // The midpoint rule has a Newton matrix of its own.
+        let takes = |island: &&IslandPlan| island.integrator != Integrator::EnergyMomentum;
+        let with = |linear| self.islands.iter().filter(takes).filter(move |island| island.linear.0 == linear).count();
+        if method.linear == LinearSolver::SparseLdl || with(method.linear) == 0 && with(LinearSolver::SparseLdl) == 0 {
+            return ", solved directly".to_owned();
+        }
+        let mut text = format!(", solved by {}", method.linear.name());
+        if method.linear.is_iterative() {
+            text += &format!(" in at most {}", plural(method.iterations as usize, "sweep"));
+        }
+        if with(LinearSolver::SparseLdl) > 0 {
+            let islands = plural(with(LinearSolver::SparseLdl), "island");
+            text += &format!(" ({islands} of more than {} rows by sparse LDLᵀ)", LinearSolver::MOST_DENSE);
+        }
+        text
     }
 
     fn describe(&self, world: &World, method: &Method) -> String {
@@ -323,7 +344,10 @@ impl IslandPlan {
         };
         let steps = (!method.automatic).then_some(method.substeps);
         let local = if integrator == Integrator::Rattle { LOCAL_SECOND } else { LOCAL };
-        IslandPlan { group, integrator, guarded: false, tolerance: local * method.accuracy, steps }
+        let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
+        let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
+        let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);
+        IslandPlan { group, integrator, guarded: false, linear, tolerance: local * method.accuracy, steps }
     }
 }
 

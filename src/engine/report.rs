@@ -76,6 +76,9 @@ pub struct StepReport {
     pub order: u32,
     /// Estimate of the local error of this step, in parts of an island's size; 0 if nothing estimates it.
     pub local_error: f64,
+    /// Worst ‖b − A x‖ / ‖b‖ of the islands' solves, and most sweeps of one; 0 with the sparse LDLᵀ, which is not watched.
+    pub linear_residual: f64,
+    pub sweeps: u32,
     /// Rows that depend on others and were dropped.
     pub redundant: usize,
     /// Islands that could not be carried to the accuracy in this step and went through the substeps instead.

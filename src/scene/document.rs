@@ -1,7 +1,7 @@
 //! The scene as it stands in a file: every field of the format, its unit and its default.
 
 use super::generator::Generator;
-use crate::engine::{DVec2, Integrator, Method, Motion, Solver, Tuning};
+use crate::engine::{DVec2, Integrator, LinearSolver, Method, Motion, Solver, Tuning};
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -94,6 +94,7 @@ pub struct Settings {
     pub warm_start: bool,
     pub baumgarte: f64,
     pub automatic: bool,
+    pub linear: LinearSolver,
     pub accuracy: f64,
 }
 
@@ -106,7 +107,7 @@ impl Default for Settings {
 impl Settings {
     /// Settings made of a world's and a method's parts.
     pub fn new(gravity: DVec2, drag: f64, tuning: Tuning, method: &Method) -> Settings {
-        let Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, accuracy } =
+        let Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, linear, accuracy } =
             *method;
         Settings {
             gravity,
@@ -120,6 +121,7 @@ impl Settings {
             warm_start,
             baumgarte,
             automatic,
+            linear,
             accuracy,
         }
     }
@@ -127,9 +129,19 @@ impl Settings {
     /// The part that says how the world is stepped.
     pub fn method(&self) -> Method {
         let Settings {
-            hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, accuracy, ..
+            hz,
+            substeps,
+            iterations,
+            integrator,
+            solver,
+            warm_start,
+            baumgarte,
+            automatic,
+            linear,
+            accuracy,
+            ..
         } = *self;
-        Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, accuracy }
+        Method { hz, substeps, iterations, integrator, solver, warm_start, baumgarte, automatic, linear, accuracy }
     }
 }
 

@@ -18,6 +18,8 @@ const POINTS: usize = 500;
 const LABEL_SPACING: f32 = 16.0;
 /// Decades below the top of the logarithmic axis.
 const DECADES: f64 = 8.0;
+/// The same for local errors, which lie far below what is wanted of the whole.
+const ERROR_DECADES: f64 = 9.0;
 /// Range of a plot that has nothing but zeros to show [J].
 const NO_ENERGY: f64 = 1.0;
 /// The same for errors [m]: a thousandth of the diameter of a hair.
@@ -32,6 +34,8 @@ pub struct Plots {
     energy: [SteadyRange; 2],
     /// [m]
     violation: SteadyRange,
+    /// In parts of an island's size.
+    local_error: SteadyRange,
     /// [µs]
     step: SteadyRange,
     /// Opening of the scene that the ranges belong to.
@@ -113,12 +117,14 @@ impl Plots {
             match state.plot {
                 PlotTab::Energy => energy_legend(ui, frame),
                 PlotTab::Violation => violation_legend(ui, frame, &mut state.plot_log),
+                PlotTab::LocalError => local_error_legend(ui, frame),
                 PlotTab::StepTime => step_legend(ui, frame),
             }
         });
         match state.plot {
             PlotTab::Energy => self.energy(ui, frame),
             PlotTab::Violation => self.violation(ui, frame, state.plot_log),
+            PlotTab::LocalError => self.local_error(ui, frame),
             PlotTab::StepTime => self.step(ui, frame),
         }
     }
@@ -161,6 +167,21 @@ impl Plots {
             for (index, (name, _)) in VIOLATIONS.iter().enumerate() {
                 plot.line(Line::new(*name, curves.line(index, map)).color(colours[index]).width(1.5));
             }
+        });
+    }
+
+    fn local_error(&mut self, ui: &mut Ui, frame: &Frame) {
+        let curves = Curves::of(frame, Fold::Largest, |sample| [sample.local_error]);
+        let wanted = frame.method.accuracy;
+        self.local_error.update(curves.largest(|values| values[0]).max(wanted), Instant::now());
+        let theme::Colours { series, weak, .. } = theme::colours(ui);
+        let high = self.local_error.top().log10().ceil();
+        let low = high - ERROR_DECADES;
+        let label = |mark: GridMark| format!("1e{}", mark.value);
+        let map = |value: f64| value.max(1e-300).log10().max(low);
+        plot(ui, "Local error plot", frame, Rise { range: [low, high], decades: true }, label, |plot| {
+            plot.line(Line::new("Local error", curves.line(0, map)).color(series[0]).width(1.5));
+            plot.hline(HLine::new("Wanted", map(wanted)).color(weak).style(LineStyle::dashed_loose()));
         });
     }
 
@@ -235,6 +256,25 @@ fn violation_legend(ui: &mut Ui, frame: &Frame, logarithmic: &mut bool) {
     ui.checkbox(logarithmic, "Logarithmic").on_hover_text("Axis in powers of ten, or linear from zero.");
 }
 
+fn local_error_legend(ui: &mut Ui, frame: &Frame) {
+    let theme::Colours { series, weak, .. } = theme::colours(ui);
+    let value = match frame.report.local_error {
+        0.0 => "not estimated".to_owned(),
+        error => format!("{error:.0e}"),
+    };
+    let help = "Estimated error of the last step alone, in parts of an island's size. Taylor series, RATTLE and Nyström's methods \
+                estimate it for islands that are carried whole.";
+    entry(ui, series[0], "Local error", &value, help);
+    let help =
+        "Wanted accuracy of the motion after a second or so: the dashed line. Each step has to stay well below it.";
+    marked(ui, dashed(weak), "Wanted", &format!("{:.0e}", frame.method.accuracy), help);
+}
+
+/// A dashed line for [`marked`].
+fn dashed(colour: Color32) -> impl Fn(Rangef, f32) -> Vec<Shape> {
+    move |at, y| Shape::dashed_line(&[pos2(at.min, y), pos2(at.max, y)], (1.5, colour), 4.0, 2.0)
+}
+
 fn step_legend(ui: &mut Ui, frame: &Frame) {
     let theme::Colours { series, weak, .. } = theme::colours(ui);
     for ((stage, micros), colour) in Stage::ALL.iter().zip(frame.report.stage_us).zip(series) {
@@ -243,8 +283,7 @@ fn step_legend(ui: &mut Ui, frame: &Frame) {
     }
     let help = "Time that a step may take to keep up with the wanted speed: the dashed line. It is out of sight while steps \
                 take far less.";
-    let line = |at: Rangef, y: f32| Shape::dashed_line(&[pos2(at.min, y), pos2(at.max, y)], (1.5, weak), 4.0, 2.0);
-    marked(ui, line, "Budget", &si(budget(frame) * 1e-6, "s"), help);
+    marked(ui, dashed(weak), "Budget", &si(budget(frame) * 1e-6, "s"), help);
 }
 
 /// A stroke of a curve's colour, its name and its value now.

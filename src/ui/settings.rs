@@ -3,7 +3,7 @@
 use super::format;
 use super::widgets::{self, Number};
 use crate::app::{Command, Frame};
-use crate::engine::{DVec2, Integrator, Method, Solver, StepReport, Tuning};
+use crate::engine::{DVec2, Integrator, LinearSolver, Method, Solver, StepReport, Tuning};
 use egui::Ui;
 
 /// What a double-click resets to: the values with which the scene was opened.
@@ -168,6 +168,30 @@ pub fn integrator_help(integrator: Integrator) -> &'static str {
     }
 }
 
+/// One line on a linear solver.
+pub fn linear_help(solver: LinearSolver) -> &'static str {
+    match solver {
+        LinearSolver::SparseLdl => {
+            "Elimination along the constraints' graph: exact, and linear in the rows of chains and trees."
+        }
+        LinearSolver::Elimination => {
+            "Gaussian elimination with pivoting, anew for every solve: n³ each, for 400 rows at most."
+        }
+        LinearSolver::Lu => "Elimination kept as L U: n³ once a step, n² a solve, for 400 rows at most.",
+        LinearSolver::Cholesky => {
+            "L Lᵀ at half the cost of LU; gives the step up where rows are redundant. 400 rows at most."
+        }
+        LinearSolver::LeastSquares => {
+            "QR with column pivoting: redundant rows share the load evenly. The costliest; 400 rows at most."
+        }
+        LinearSolver::Jacobi => "All rows at once from old values, as often as iterations are set: may diverge.",
+        LinearSolver::GaussSeidel => {
+            "Row after row with the newest values: on a chain of n rows news takes some n² sweeps."
+        }
+        LinearSolver::ConjugateGradients => "The best of all residuals so far: n sweeps at most, but for rounding.",
+    }
+}
+
 /// One line on a solver.
 pub fn solver_help(solver: Solver) -> &'static str {
     match solver {
@@ -258,8 +282,8 @@ fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Co
     if frame.report.given_up > 0 {
         let islands = format::count(frame.report.given_up);
         let note = format!(
-            "Islands left to the substeps in this step: {islands}. No position meets all their lengths, or their springs ask \
-             for more than 1000 steps a frame."
+            "Islands left to the substeps in this step: {islands}. No position meets all their lengths, their springs ask for \
+             more than 1000 steps a frame, or the linear solver failed."
         );
         widgets::note(ui, &note);
     }
@@ -273,6 +297,12 @@ fn last_step(report: &StepReport) -> Option<String> {
     let mut text = format!("Last step: {}, order {}, {substeps}", integrator.name(), report.order);
     if let Some(matrix) = report.matrix {
         text += &format!("; matrix {}", matrix.name());
+    }
+    if report.linear_residual > 0.0 {
+        text += &format!("; residual {:.0e} of the right-hand side", report.linear_residual);
+    }
+    if report.sweeps > 0 {
+        text += &format!(" after {} sweeps", report.sweeps);
     }
     if report.redundant > 0 {
         text += &format!("; redundant rows dropped: {}", report.redundant);
@@ -306,5 +336,15 @@ fn kinds(ui: &mut Ui, method: &mut Method, defaults: &Method) -> bool {
     let help = "How constraints and contacts are solved within a substep.";
     let solver = widgets::choice(ui, "Constraint solver", &mut method.solver, Some(defaults.solver), &solvers, help);
     widgets::note(ui, solver_help(method.solver));
-    integrator || solver
+    let whole = method.automatic || method.integrator.is_direct();
+    integrator || solver || whole && linear(ui, method, defaults)
+}
+
+/// What solves the rows of islands that are carried whole.
+fn linear(ui: &mut Ui, method: &mut Method, defaults: &Method) -> bool {
+    let solvers = LinearSolver::ALL.map(|kind| (kind, kind.name(), linear_help(kind)));
+    let help = "What solves A x = b for islands that are carried whole. The sparse one is exact and fast; the others are there to be felt.";
+    let changed = widgets::choice(ui, "Linear solver", &mut method.linear, Some(defaults.linear), &solvers, help);
+    widgets::note(ui, linear_help(method.linear));
+    changed
 }

@@ -28,16 +28,17 @@ pub enum PlotTab {
     #[default]
     Energy,
     Violation,
+    LocalError,
     StepTime,
 }
 
 impl PlotTab {
     /// All of them, in the order of their tabs.
-    pub const ALL: [PlotTab; 3] = [PlotTab::Energy, PlotTab::Violation, PlotTab::StepTime];
+    pub const ALL: [PlotTab; 4] = [PlotTab::Energy, PlotTab::Violation, PlotTab::LocalError, PlotTab::StepTime];
 
     /// The name shown to a user.
     pub fn name(self) -> &'static str {
-        ["Energy", "Error", "Step time"][self as usize]
+        ["Energy", "Error", "Local error", "Step time"][self as usize]
     }
 
     /// What it shows, for its tooltip.
@@ -45,6 +46,7 @@ impl PlotTab {
         [
             "Kinetic, potential, elastic and total energy [J] over simulated time.",
             "Worst violation of a rod, rope or pin and deepest overlap of two surfaces [m] over simulated time.",
+            "Estimated error of each step, in parts of an island's size, over simulated time.",
             "Time of a step [µs], split by stage, over simulated time.",
         ][self as usize]
     }

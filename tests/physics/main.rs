@@ -7,6 +7,7 @@ mod friction;
 mod grip;
 mod impacts;
 mod lab;
+mod linear_solvers;
 mod near;
 mod oscillation;
 mod pendulum;

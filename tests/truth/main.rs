@@ -4,5 +4,6 @@ mod closed_form;
 mod energy_momentum;
 mod orders;
 mod reference;
+mod rope_lengths;
 mod stored;
 mod taylor;

@@ -4,8 +4,10 @@
 //! The row of a slack rope is 1 on the diagonal and nothing else, so its λ is 0 and the pattern stays.
 
 use super::Nodes;
+use super::linear::{Entry, Linear};
 use super::system::{Pins, Rods};
 use crate::engine::linalg::sparse::{Ldl, Pivots, Summary};
+use crate::engine::method::LinearSolver;
 
 /// Two rods with a common node.
 #[derive(Clone, Copy, Debug)]
@@ -39,10 +41,12 @@ pub(crate) struct Matrix {
     rod_pin: Vec<RodPin>,
     /// Diagonal blocks ± w 1 of two pins with a common node.
     pin_pin: Vec<(u32, f64)>,
+    /// What solves in place of the sparse LDLᵀ, if something does.
+    pub linear: Option<Box<Linear>>,
 }
 
 impl Matrix {
-    pub fn new(nodes: &Nodes, rods: &Rods, pins: &Pins) -> Matrix {
+    pub fn new(nodes: &Nodes, rods: &Rods, pins: &Pins, (solver, iterations): (LinearSolver, u32)) -> Matrix {
         let mut matrix = Matrix::default();
         let sizes: Vec<u8> = rods.a.iter().map(|_| 1).chain(pins.a.iter().map(|_| 2)).collect();
         let ends = || rods.a.iter().zip(&rods.b).chain(pins.a.iter().zip(&pins.b));
@@ -72,6 +76,10 @@ impl Matrix {
             let entry = (matrix.ldl.diagonal_slot(k) as u32, sum(*a, *b));
             if k < rods.a.len() { matrix.diagonal.push(entry) } else { matrix.pin_diagonal.push(entry) }
         }
+        if solver != LinearSolver::SparseLdl {
+            let rows = rods.a.len() + 2 * pins.a.len();
+            matrix.linear = Some(Box::new(Linear::new(solver, iterations, rows, matrix.entries(rods.a.len(), &pairs))));
+        }
         for (p, ((r, s), weight)) in pairs.iter().zip(weights).enumerate() {
             let slot = matrix.ldl.pair_slot(p).0 as u32;
             let is_pin = |k: u32| k as usize >= rods.a.len();
@@ -83,6 +91,33 @@ impl Matrix {
             }
         }
         matrix
+    }
+
+    /// All entries, of both triangles: rows of rods, then two a pin, whose blocks have no entries off their diagonals.
+    fn entries(&self, rods: usize, pairs: &[(u32, u32)]) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        let row = |k: u32| if (k as usize) < rods { k } else { 2 * k - rods as u32 };
+        let mut add = |row: u32, column: u32, slot: u32| {
+            entries.extend([Entry { row, column, slot }, Entry { row: column, column: row, slot }]);
+        };
+        for (r, (slot, _)) in self.diagonal.iter().enumerate() {
+            add(r as u32, r as u32, *slot);
+        }
+        for (p, (slot, _)) in self.pin_diagonal.iter().enumerate() {
+            let first = row((rods + p) as u32);
+            add(first, first, *slot);
+            add(first + 1, first + 1, slot + 3);
+        }
+        for (p, (r, s)) in pairs.iter().enumerate() {
+            let slot = self.ldl.pair_slot(p).0 as u32;
+            let (rod, other) = (*r.min(s), *r.max(s));
+            match ((rod as usize) < rods, (other as usize) < rods) {
+                (true, true) => add(rod, other, slot),
+                (true, false) => (0..2).for_each(|i| add(rod, row(other) + i, slot + i)),
+                _ => (0..2).for_each(|i| add(row(rod) + i, row(other) + i, slot + 3 * i)),
+            }
+        }
+        entries
     }
 
     /// Fills in the values for differences d of the rods, and factors.
@@ -119,12 +154,18 @@ impl Matrix {
             values[*slot as usize] += weight;
             values[*slot as usize + 3] += weight;
         }
-        self.pivots = self.ldl.factor();
+        self.pivots = match &mut self.linear {
+            Some(linear) => Pivots { dropped: linear.factor(self.ldl.values()), ..Pivots::default() },
+            None => self.ldl.factor(),
+        };
     }
 
     /// Solves A x = b in place: rods, then two rows a pin.
     #[inline]
     pub fn solve(&mut self, b: &mut [f64]) {
-        self.ldl.solve(b);
+        match &mut self.linear {
+            Some(linear) => linear.solve(b),
+            None => self.ldl.solve(b),
+        }
     }
 }

@@ -6,6 +6,7 @@
 
 mod accelerations;
 pub(crate) mod forces;
+pub(crate) mod linear;
 pub(crate) mod matrix;
 mod near;
 pub(crate) mod nodes;

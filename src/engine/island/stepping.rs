@@ -41,7 +41,7 @@ impl Islands {
         self.energy_momentum.clear();
         self.energy_momentum.resize_with(plan.islands.len(), EnergyMomentum::default);
         for plan in &plan.islands {
-            let system = System::new(world, &plan.group.bodies, &plan.group.constraints);
+            let system = System::new(world, &plan.group.bodies, &plan.group.constraints, plan.linear);
             self.islands.push((plan.clone(), system));
         }
     }
@@ -59,8 +59,13 @@ impl Islands {
                 continue;
             }
             let (integrator, outcome) = self.carry(index, world, time);
-            let system = &self.islands[index].1;
             report.retries += outcome.retries;
+            if let Some(linear) = &mut self.islands[index].1.matrix.linear {
+                let quality = std::mem::take(&mut linear.quality);
+                report.linear_residual = report.linear_residual.max(quality.residual);
+                report.sweeps = report.sweeps.max(quality.sweeps);
+            }
+            let system = &self.islands[index].1;
             if outcome.failed || !in_range(system) {
                 self.given_up.push(index);
                 continue;
@@ -101,7 +106,7 @@ impl Islands {
             integrator = Integrator::EnergyMomentum;
         }
         let outcome = match integrator {
-            Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, steps),
+            Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, pace),
             Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),

@@ -8,6 +8,7 @@ use super::Nodes;
 use super::forces::{Held, Springs};
 use super::matrix::Matrix;
 use crate::engine::constraint::{Kind, WORLD};
+use crate::engine::method::LinearSolver;
 use crate::engine::world::World;
 use glam::DVec2;
 
@@ -61,8 +62,8 @@ pub(crate) struct System {
 }
 
 impl System {
-    /// The island of these bodies and constraints (dense indices, ascending).
-    pub fn new(world: &World, bodies: &[u32], constraints: &[u32]) -> System {
+    /// The island of these bodies and constraints (dense indices, ascending), with what solves its rows and in how many sweeps.
+    pub fn new(world: &World, bodies: &[u32], constraints: &[u32], solver: (LinearSolver, u32)) -> System {
         let mut system = System { gravity: world.gravity, drag: world.drag, ..System::default() };
         for body in bodies {
             let i = *body as usize;
@@ -77,7 +78,7 @@ impl System {
         let rows = system.rods.a.len();
         (system.dx, system.dy) = (vec![0.0; rows], vec![0.0; rows]);
         system.rhs = vec![0.0; rows + 2 * system.pins.a.len()];
-        system.matrix = Matrix::new(&system.nodes, &system.rods, &system.pins);
+        system.matrix = Matrix::new(&system.nodes, &system.rods, &system.pins, solver);
         system
     }
 

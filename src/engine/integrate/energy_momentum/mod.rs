@@ -12,15 +12,20 @@
 
 mod discrete;
 mod graph;
+mod moment;
 mod tree;
 
 use super::outcome::{Outcome, in_parts};
+use super::pace::{Pace, steps_within};
 use crate::engine::island::System;
 use graph::Graph;
+use moment::Moment;
 use tree::Tree;
 
 /// Cosine of the largest turn of a rod in a step.
 const TURN: f64 = 0.35;
+/// Times that the number of steps is corrected.
+const MOST_CHANGES: u32 = 3;
 /// Most Newton iterations.
 const MOST_ITERATIONS: u32 = 15;
 /// What the next correction would have to change to be worth making, in parts of a rod's length. Well above the rounding of a
@@ -35,6 +40,11 @@ const FAR: f64 = 1e-10;
 #[derive(Debug, Default)]
 pub(crate) struct EnergyMomentum {
     solver: Solver,
+    /// The island at the start of the time, and of the step.
+    start: Moment,
+    before: Moment,
+    /// By node: the largest turn of a rod that ends there [rad].
+    turn: Vec<f64>,
 }
 
 #[derive(Debug, Default)]
@@ -46,34 +56,54 @@ enum Solver {
 }
 
 impl EnergyMomentum {
-    /// Carries the island through `time` [s] in `steps` equal steps, some of them cut where they fail. For one island only:
-    /// the first call takes its topology.
-    pub fn advance(&mut self, system: &mut System, time: f64, steps: u32) -> Outcome {
+    /// Carries the island through `time` [s] in equal steps, some of them cut where they fail. For one island only: the first
+    /// call takes its topology.
+    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace) -> Outcome {
         if matches!(self.solver, Solver::None) {
             self.solver = match Tree::new(system) {
                 Some(tree) => Solver::Tree(Box::new(tree)),
                 None => Solver::Graph(Box::new(Graph::new(system))),
             };
         }
-        let mut outcome = Outcome { order: 2, ..Outcome::default() };
+        let mut steps = if let Pace::Steps(steps) = pace { steps } else { 1 };
+        let mut changes = 0;
         if !meet(system) {
-            outcome.failed = true;
-            return outcome;
+            return Outcome { order: 2, failed: true, ..Outcome::default() };
         }
-        let h = time / f64::from(steps);
+        self.start.keep(system);
+        loop {
+            let mut outcome = self.run(system, time, steps, pace);
+            outcome.retries += changes;
+            let Pace::Within(tolerance) = pace else { return outcome };
+            let more = steps_within(f64::from(steps), outcome.error / tolerance, 2.0);
+            let Some(more) = more.filter(|_| !outcome.failed && changes < MOST_CHANGES) else { return outcome };
+            (steps, changes) = (more.min(super::MOST_STEPS) as u32, changes + 1);
+            self.start.restore(system);
+        }
+    }
+
+    fn run(&mut self, system: &mut System, time: f64, steps: u32, pace: Pace) -> Outcome {
+        let mut outcome = Outcome { order: 2, ..Outcome::default() };
+        let watched = matches!(pace, Pace::Within(_));
+        let mut error = 0.0;
         for _ in 0..steps {
             let step = |h: f64| {
+                if watched {
+                    self.before.keep(system);
+                }
                 let solved = self.solve(system, h);
                 if solved {
                     self.apply(system, h);
+                    error += if watched { self.before.error(system, h, &mut self.turn) } else { 0.0 };
                 }
                 solved
             };
-            if !in_parts(h, &mut outcome, step) {
+            if !in_parts(time / f64::from(steps), &mut outcome, step) {
                 outcome.failed = true;
                 break;
             }
         }
+        outcome.error = error;
         outcome
     }
 

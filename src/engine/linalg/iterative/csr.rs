@@ -1,7 +1,7 @@
 //! A sparse matrix stored by rows ("compressed sparse row").
 
 /// Row i has the entries `values[start[i]..start[i + 1]]` in the columns of the same places, ascending. Square.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Csr {
     start: Vec<usize>,
     columns: Vec<u32>,
@@ -39,6 +39,16 @@ impl Csr {
             start[row + 1] = start[row + 1].max(start[row]);
         }
         Self { start, columns, values, diagonal }
+    }
+
+    /// Takes new values for the entries that there are, row by row with ascending columns.
+    pub fn set_values(&mut self, values: impl Iterator<Item = f64>) {
+        self.values.iter_mut().zip(values).for_each(|(to, value)| *to = value);
+        for row in 0..self.diagonal.len() {
+            let entries = self.start[row]..self.start[row + 1];
+            let own = self.columns[entries.clone()].binary_search(&(row as u32));
+            self.diagonal[row] = own.map_or(0.0, |place| self.values[entries.start + place]);
+        }
     }
 
     /// The number of rows, and of columns.
