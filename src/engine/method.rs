@@ -157,7 +157,7 @@ impl LinearSolver {
     /// The name shown to a user.
     pub fn name(self) -> &'static str {
         match self {
-            LinearSolver::SparseLdl => "Sparse LDLᵀ",
+            LinearSolver::SparseLdl => "Sparse LDL",
             LinearSolver::Elimination => "Gaussian elimination",
             LinearSolver::Lu => "LU",
             LinearSolver::Cholesky => "Cholesky",

@@ -261,7 +261,7 @@ impl Plan {
         }
         if with(LinearSolver::SparseLdl) > 0 {
             let islands = plural(with(LinearSolver::SparseLdl), "island");
-            text += &format!(" ({islands} of more than {} rows by sparse LDLᵀ)", LinearSolver::MOST_DENSE);
+            text += &format!(" ({islands} of more than {} rows by sparse LDL)", LinearSolver::MOST_DENSE);
         }
         text
     }

@@ -179,7 +179,7 @@ pub fn linear_help(solver: LinearSolver) -> &'static str {
         }
         LinearSolver::Lu => "Elimination kept as L U: n³ once a step, n² a solve, for 400 rows at most.",
         LinearSolver::Cholesky => {
-            "L Lᵀ at half the cost of LU; gives the step up where rows are redundant. 400 rows at most."
+            "A triangle and its mirror at half the cost of LU; gives the step up where rows are redundant. 400 rows at most."
         }
         LinearSolver::LeastSquares => {
             "QR with column pivoting: redundant rows share the load evenly. The costliest; 400 rows at most."
