@@ -73,6 +73,8 @@ pub(crate) struct IslandPlan {
     pub integrator: Integrator,
     /// Some body collides: in steps in which something is near the island goes through the substeps.
     pub guarded: bool,
+    /// Its rods close more than one loop, so that elimination fills in.
+    pub net: bool,
     /// What solves its rows, and in how many sweeps at most.
     pub linear: (LinearSolver, u32),
     /// Local error allowed in a step, in parts of the island's size.
@@ -342,12 +344,14 @@ impl IslandPlan {
             Integrator::Nystrom4 | Integrator::Nystrom6 if !springs => Integrator::Taylor,
             by_hand => by_hand,
         };
+        let rigid = kinds().filter(|kind| !matches!(kind, Kind::Spring { .. })).count();
+        let net = rigid > group.bodies.len() + 1;
         let steps = (!method.automatic).then_some(method.substeps);
         let local = if integrator == Integrator::Rattle { LOCAL_SECOND } else { LOCAL };
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
         let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);
-        IslandPlan { group, integrator, guarded: false, linear, tolerance: local * method.accuracy, steps }
+        IslandPlan { group, integrator, guarded: false, net, linear, tolerance: local * method.accuracy, steps }
     }
 }
 

@@ -93,6 +93,11 @@ impl Matrix {
         matrix
     }
 
+    /// Whether the pattern is known.
+    pub fn analysed(&self) -> bool {
+        !self.diagonal.is_empty() || !self.pin_diagonal.is_empty()
+    }
+
     /// All entries, of both triangles: rows of rods, then two a pin, whose blocks have no entries off their diagonals.
     fn entries(&self, rods: usize, pairs: &[(u32, u32)]) -> Vec<Entry> {
         let mut entries = Vec::new();

@@ -13,7 +13,6 @@ use crate::engine::integrate::pace::Pace;
 use crate::engine::integrate::rattle::Rattle;
 use crate::engine::integrate::runge_kutta::RungeKutta;
 use crate::engine::integrate::taylor::Taylor;
-use crate::engine::linalg::sparse::Path;
 use crate::engine::plan::{IslandPlan, Plan};
 use crate::engine::report::StepReport;
 use crate::engine::world::World;
@@ -73,7 +72,7 @@ impl Islands {
             if system.nodes.len() > largest {
                 largest = system.nodes.len();
                 report.integrator = Some(integrator);
-                report.matrix = (!system.unconstrained()).then_some(system.matrix.summary.path);
+                report.matrix = system.matrix.analysed().then_some(system.matrix.summary.path);
             }
             report.island_steps = report.island_steps.max(outcome.steps);
             report.order = report.order.max(outcome.order);
@@ -94,9 +93,8 @@ impl Islands {
             integrator = Integrator::Taylor;
         }
         if integrator == Integrator::Rattle {
-            // A factor that fills in costs more than all else, and RATTLE takes one a substep.
-            let costly = system.matrix.summary.path == Path::Sparse;
-            if plan.steps.is_some() || !costly {
+            // The factor of a net costs more than all else, and RATTLE takes one a substep.
+            if plan.steps.is_some() || !plan.net {
                 let outcome = self.rattle.advance(system, time, pace);
                 if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
                     return (integrator, outcome);

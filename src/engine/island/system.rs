@@ -53,7 +53,10 @@ pub(crate) struct System {
     pub held: Option<Held>,
     /// Size of the island at the start of the step [m]: errors are measured in parts of it.
     pub length: f64,
+    /// Analysed when it is first filled: the midpoint rule has one of its own.
     pub matrix: Matrix,
+    /// What solves it, and in how many sweeps at most.
+    solver: (LinearSolver, u32),
     /// d = x_b − x_a of the rods, at the positions that the matrix was filled for.
     pub dx: Vec<f64>,
     pub dy: Vec<f64>,
@@ -78,7 +81,7 @@ impl System {
         let rows = system.rods.a.len();
         (system.dx, system.dy) = (vec![0.0; rows], vec![0.0; rows]);
         system.rhs = vec![0.0; rows + 2 * system.pins.a.len()];
-        system.matrix = Matrix::new(&system.nodes, &system.rods, &system.pins, solver);
+        system.solver = solver;
         system
     }
 
@@ -186,6 +189,9 @@ impl System {
     /// Fills the matrix for the present positions and factors it.
     pub fn factor(&mut self) {
         self.take_differences();
+        if !self.matrix.analysed() {
+            self.matrix = Matrix::new(&self.nodes, &self.rods, &self.pins, self.solver);
+        }
         self.matrix.factor(&self.rods, &self.dx, &self.dy);
     }
 
