@@ -20,15 +20,18 @@ const FORCE_LIMIT: f64 = 1.0;
 const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
 const LOCAL: f64 = 0.03;
+/// The same for methods of order 2, whose errors add up more evenly.
+const LOCAL_SECOND: f64 = 0.018;
 
 /// Accuracies down to which methods of order 2 cost least.
-const SECOND_ORDER: f64 = 3e-4;
+const SECOND_ORDER: f64 = 6e-4;
 /// Accuracies down to which Nyström's methods cost least.
 const ORDER_4: f64 = 1e-5;
 const FINEST_NYSTROM: f64 = 1e-11;
 
-/// The same for methods of order 2, whose errors add up more evenly.
-const LOCAL_SECOND: f64 = 0.018;
+/// Loosest accuracy of methods of higher order. Steps of low order gain energy in swings that they hardly resolve, as those of light links
+/// under a heavy load; and it costs little more.
+const LOOSEST_SERIES: f64 = 1e-5;
 
 /// The decisions for one world under one method.
 #[derive(Debug, Default)]
@@ -347,11 +350,14 @@ impl IslandPlan {
         let rigid = kinds().filter(|kind| !matches!(kind, Kind::Spring { .. })).count();
         let net = rigid > group.bodies.len() + 1;
         let steps = (!method.automatic).then_some(method.substeps);
-        let local = if integrator == Integrator::Rattle { LOCAL_SECOND } else { LOCAL };
+        let tolerance = match integrator {
+            Integrator::Rattle => LOCAL_SECOND * method.accuracy,
+            _ => LOCAL * method.accuracy.min(LOOSEST_SERIES),
+        };
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
         let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);
-        IslandPlan { group, integrator, guarded: false, net, linear, tolerance: local * method.accuracy, steps }
+        IslandPlan { group, integrator, guarded: false, net, linear, tolerance, steps }
     }
 }
 

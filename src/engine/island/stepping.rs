@@ -90,6 +90,7 @@ impl Islands {
         let (pace, steps) = (plan.steps.map_or(Pace::Within(tolerance), Pace::Steps), plan.steps.unwrap_or(1));
         let mut integrator = plan.integrator;
         if matches!(integrator, Integrator::Nystrom4 | Integrator::Nystrom6) && !Nystrom::takes(system) {
+            // The mouse's hold has a damper.
             integrator = Integrator::Taylor;
         }
         if integrator == Integrator::Rattle {
