@@ -153,6 +153,10 @@ impl Surfaces {
             if ends(&touch) && goes_on {
                 touches.remove(place);
             } else {
+                if ends(&touch) {
+                    // From here on it turns about the end.
+                    touches[place].side = None;
+                }
                 place += 1;
             }
         }

@@ -134,14 +134,14 @@ impl Touch {
 /// How far a disc of `radius` that touches a wall at `centre` can go along −t and t before the side it touches ends [m]; none at a
 /// corner or an end.
 pub(super) fn side_of(shape: &Shape, centre: DVec2, normal: DVec2, radius: f64) -> Option<[f64; 2]> {
-    let along = normal.perp();
-    let room = match *shape {
-        Shape::Segment { from, to } => [(from - centre).dot(along), (to - centre).dot(along)],
-        Shape::Box { min, max } if normal.x == 0.0 || normal.y == 0.0 => {
-            [(min - centre).dot(along), (max - centre).dot(along)]
-        }
+    let (ends, side) = match *shape {
+        Shape::Segment { from, to } => ([from, to], (to - from).try_normalize()?),
+        Shape::Box { min, max } if normal.x.abs() <= AT_END => ([min, max], DVec2::X),
+        Shape::Box { min, max } if normal.y.abs() <= AT_END => ([min, max], DVec2::Y),
         Shape::Box { .. } => return None,
     };
-    let (low, high) = (room[0].min(room[1]), room[0].max(room[1]));
+    let along = if side.dot(normal.perp()) < 0.0 { -side } else { side };
+    let [one, other] = ends.map(|end| (end - centre).dot(along));
+    let (low, high) = (one.min(other), one.max(other));
     (low <= AT_END * radius && high >= -AT_END * radius).then_some([(-low).max(0.0), high.max(0.0)])
 }
