@@ -100,6 +100,8 @@ pub(crate) struct FewPlan {
     pub bodies: Vec<u32>,
     /// How many of them are not static.
     pub free: usize,
+    /// Error allowed in a step where motion is not in closed form, in parts of the smallest radius.
+    pub tolerance: f64,
 }
 
 impl FewPlan {
@@ -160,7 +162,7 @@ impl Plan {
         let few = groups.pop_if(|group| method.automatic && self.is_few(world, group));
         let smooth: Vec<Group> = groups.into_iter().filter(|group| self.smooth(world, group)).collect();
         if let Some(free) = few.filter(|_| self.without.binary_search(&smooth.len()).is_err()) {
-            self.carry_few(world, free);
+            self.carry_few(world, method, free);
         }
         for (index, group) in smooth.into_iter().enumerate() {
             if self.without.binary_search(&index).is_err() {
@@ -186,12 +188,13 @@ impl Plan {
     }
 
     /// Gives free bodies to the stage that carries them from event to event.
-    fn carry_few(&mut self, world: &World, group: Group) {
+    fn carry_few(&mut self, world: &World, method: &Method, group: Group) {
         let free = group.bodies.len();
         group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
         let carried = |body: &u32| self.in_island[*body as usize] || self.touches(world, *body);
         let bodies = (0..world.bodies.len() as u32).filter(carried).collect();
-        self.few = Some(FewPlan { bodies, free });
+        let tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
+        self.few = Some(FewPlan { bodies, free, tolerance });
         // Nothing else can touch.
         (self.contacts, self.restitution) = (false, false);
     }

@@ -4,7 +4,8 @@ use super::collide::Collisions;
 use super::cone::Cone;
 use super::path::Path;
 use super::record::Records;
-use super::rest::{Held, STICKS, Surroundings, settle};
+use super::rest::{Forces, Held, STICKS, Surroundings, settle};
+use super::rolling::{Curve, Frame, Rolling};
 use super::surfaces::{Surfaces, TooDeep};
 use super::touch::Touch;
 use crate::engine::body::NO_ROTOR;
@@ -22,6 +23,9 @@ const DOUBLINGS: usize = 8;
 const MOST_EVENTS: [usize; 2] = [2000, 200];
 /// Contacts that act at once; their direct solve costs the cube.
 const MOST_AT_ONCE: usize = 96;
+
+/// Part of a step from which on a path under changing forces is fitted at both ends.
+const FITTED: f64 = 1e-3;
 
 /// What ends a body's present path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +57,12 @@ pub(crate) struct Few {
     stale: Vec<bool>,
     touches: Vec<Touch>,
     resting: Vec<Touch>,
+    rolling: Rolling,
+    /// Bodies whose forces change all the time, and memory of those that were.
+    curves: Vec<Curve>,
+    spare: Vec<Curve>,
+    /// Error allowed for those in a step [m].
+    tolerance: f64,
     /// Length of the step [s].
     end: f64,
     events: usize,
@@ -71,6 +81,7 @@ impl Few {
     /// Makes the group anew.
     pub fn build(&mut self, world: &World, plan: &FewPlan) {
         self.surfaces.build(world, &plan.bodies);
+        self.tolerance = plan.tolerance * self.surfaces.least_radius();
     }
 
     /// Carries the group through `time` [s] without touching the world; `false` if it cannot be.
@@ -110,12 +121,13 @@ impl Few {
         self.stale.clear();
         self.stale.resize(self.surfaces.len(), false);
         self.held.clear();
+        self.spare.append(&mut self.curves);
         self.records.clear();
     }
 
     /// All events of the step.
     fn run(&mut self, world: &World) -> Result<(), Lost> {
-        self.set_here(0.0);
+        self.set_here(world, 0.0)?;
         for place in 0..self.surfaces.len() {
             // A group marks its bodies, so that each is met once.
             if self.surfaces.is_dynamic(place) && !self.stale[place] {
@@ -138,22 +150,24 @@ impl Few {
             if self.events > MOST_EVENTS[0] + MOST_EVENTS[1] * self.surfaces.len() {
                 return Err(Lost);
             }
-            self.set_here(time);
+            self.set_here(world, time)?;
             self.process(world, time, [Some(place), if let Next::Body(other) = next { Some(other) } else { None }])?;
             self.mark_stale();
             self.predict_stale(world, time);
         }
-        self.set_here(self.end);
+        self.set_here(world, self.end)?;
         self.paths.clone_from(&self.here);
         self.in_group.fill(true);
         self.release(self.end);
         Ok(())
     }
 
-    fn set_here(&mut self, time: f64) {
-        let drag = self.surfaces.drag;
-        self.here.clear();
-        self.here.extend(self.paths.iter().map(|path| path.at(time, drag)));
+    fn set_here(&mut self, world: &World, time: f64) -> Result<(), Lost> {
+        let Few { surfaces, paths, here, curves, rolling, cone, .. } = self;
+        here.clear();
+        here.extend(paths.iter().map(|path| path.at(time, surfaces.drag)));
+        let frame = Frame { world, masses: &surfaces.masses, drag: surfaces.drag };
+        if curves.iter().all(|curve| rolling.evaluate(curve, time, &frame, cone, here)) { Ok(()) } else { Err(Lost) }
     }
 
     /// Relative speed below which what touches stays [m/s]: a rebound in the pull of gravity lasts 2 v/g.
@@ -179,8 +193,10 @@ impl Few {
         let surroundings = Surroundings { gravity: world.gravity, rest };
         let scratch = (&mut self.cone, &mut self.resting);
         let of_group = (&self.group[..], &self.touches[..]);
-        if !settle(of_group, &surroundings, scratch, masses, &mut self.paths, &mut self.held) {
-            return Err(Lost);
+        match settle(of_group, &surroundings, scratch, masses, &mut self.paths, &mut self.held) {
+            Forces::Unknown => return Err(Lost),
+            Forces::Changing => self.roll(world, time)?,
+            Forces::Constant => {}
         }
         self.group.iter().for_each(|place| self.here[*place] = self.paths[*place]);
         for touch in &self.touches {
@@ -188,6 +204,32 @@ impl Few {
                 self.records.add(touch, self.surfaces.body[touch.a], touch.impulse);
             }
         }
+        Ok(())
+    }
+
+    /// Takes the group on under forces that change all the time.
+    fn roll(&mut self, world: &World, time: f64) -> Result<(), Lost> {
+        let Few { surfaces, paths, here, rolling, cone, .. } = self;
+        let frame = Frame { world, masses: &surfaces.masses, drag: surfaces.drag };
+        let mut curve = self.spare.pop().unwrap_or_default();
+        curve.begin(time, &self.group, paths, &self.resting, cone);
+        here.clone_from(paths);
+        if !rolling.plan(&mut curve, self.end, self.tolerance, &frame, cone, paths)
+            || !rolling.evaluate(&curve, curve.until, &frame, cone, here)
+        {
+            self.spare.push(curve);
+            return Err(Lost);
+        }
+        let lasts = curve.until - time;
+        if lasts > FITTED * self.end {
+            // For meetings with others: the parabola through both ends, off by the third order on the way.
+            let weights = surfaces.drag.weights(lasts);
+            for place in &curve.bodies {
+                let path = &mut paths[*place];
+                path.drive = (here[*place].position - path.position - weights.first * path.velocity) / weights.second;
+            }
+        }
+        self.curves.push(curve);
         Ok(())
     }
 
@@ -217,6 +259,9 @@ impl Few {
                 join(held.touch.a);
                 join(held.touch.b);
             }
+            for curve in self.curves.iter().filter(|curve| curve.bodies.contains(&i)) {
+                curve.bodies.iter().for_each(|place| join(*place));
+            }
         }
         self.in_group = member;
         found?;
@@ -237,7 +282,10 @@ impl Few {
 
     /// Ends the contacts of the group that lasted until `time`.
     fn release(&mut self, time: f64) {
-        let Few { held, in_group, records, surfaces, .. } = self;
+        let Few { held, in_group, records, surfaces, curves, spare, .. } = self;
+        while let Some(place) = curves.iter().position(|curve| in_group[curve.bodies[0]]) {
+            spare.push(curves.swap_remove(place));
+        }
         let of_group = |place: usize| in_group.get(place).is_some_and(|within| *within);
         held.retain(|one| {
             let ends = of_group(one.touch.a) || of_group(one.touch.b);
@@ -301,7 +349,10 @@ impl Few {
                 keep(found, Next::Wall);
             }
         }
-        for held in self.held.iter().filter(|held| held.touch.a == i) {
+        for curve in self.curves.iter().filter(|curve| curve.bodies[0] == i) {
+            keep(curve.until - time, Next::Change);
+        }
+        for held in self.held.iter().filter(|held| held.touch.a == i && !held.curved) {
             if let Some(found) = self.surfaces.changes(&held.touch, held.slides, &self.here, left, still) {
                 keep(found, Next::Change);
             }

@@ -1,12 +1,12 @@
-//! Contacts that last: their forces, constant until the next event.
+//! Contacts that last, and their forces.
 //!
 //! On a side of a wall the normal stays, so with constant forces all acceleration is constant: sliding, sticking and rolling are in closed form.
 //! Two discs, or a disc and a corner, keep their normal only while their centres do not pass each other, as in a stack. Where one rolls over
-//! another the forces change all the time; that is not carried here, and said.
+//! another the forces change all the time, and the motion is no longer in closed form ([`super::rolling`]).
 
 use super::cone::{Cone, Normal, Tangent};
 use super::path::Path;
-use super::touch::{AT_END, Masses, Touch};
+use super::touch::{Masses, Touch};
 use glam::DVec2;
 
 /// Part of the speed of rest below which surfaces stick.
@@ -24,6 +24,18 @@ pub(super) struct Held {
     pub since: f64,
     /// The surfaces slide.
     pub slides: bool,
+    /// The force changes all the time.
+    pub curved: bool,
+    /// Its place in the problem that it was found by.
+    row: usize,
+}
+
+/// What the forces of a group are like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Forces {
+    Constant,
+    Changing,
+    Unknown,
 }
 
 /// What is constant for a step.
@@ -34,8 +46,8 @@ pub(super) struct Surroundings {
     pub rest: f64,
 }
 
-/// Finds the forces of all of `touches` that do not part, drives the bodies of `group` with them and gravity, and adds those that last to `held`.
-/// `false` if the forces would not be constant, or none are found.
+/// Finds the forces of all of `touches` that do not part, drives the bodies of `group` with them and gravity, and adds those that last to `held`;
+/// these act in the set of `cone` then, others do not.
 pub(super) fn settle(
     (group, touches): (&[usize], &[Touch]),
     surroundings: &Surroundings,
@@ -43,7 +55,7 @@ pub(super) fn settle(
     masses: &Masses,
     paths: &mut [Path],
     held: &mut Vec<Held>,
-) -> bool {
+) -> Forces {
     let gravity = surroundings.gravity.length();
     for place in group {
         paths[*place].drive = if masses.inverse_mass[*place] > 0.0 { surroundings.gravity } else { DVec2::ZERO };
@@ -53,11 +65,11 @@ pub(super) fn settle(
     resting.clear();
     resting.extend(touches.iter().filter(|touch| stays(touch)));
     if resting.is_empty() {
-        return true;
+        return Forces::Constant;
     }
     cone.begin(resting, masses);
     for (i, touch) in resting.iter().enumerate() {
-        let free = touch.normal.dot(paths[touch.a].drive - paths[touch.b].drive) + parting(touch, paths);
+        let free = touch.normal.dot(paths[touch.a].drive - paths[touch.b].drive) + touch.parting(paths);
         cone.set_free(i, [free, touch.tangent_drive(paths)]);
         if free > STILL * gravity {
             cone.normal[i] = Normal::Off;
@@ -69,56 +81,43 @@ pub(super) fn settle(
         }
     }
     if !cone.solve() {
-        return false;
+        return Forces::Unknown;
     }
-    let last = paths[group[0]].since;
+    let since = paths[group[0]].since;
     let first_new = held.len();
-    for (i, touch) in resting.iter().enumerate().filter(|(i, _)| cone.normal[*i] == Normal::On) {
-        let force = cone.multiplier(i);
+    for (row, touch) in resting.iter().enumerate().filter(|(row, _)| cone.normal[*row] == Normal::On) {
+        let force = cone.multiplier(row);
         touch.drive(force, masses, paths);
-        let slides = matches!(cone.tangent[i], Tangent::Slide(_));
-        held.push(Held { touch: Touch { impulse: [0.0; 2], ..*touch }, force, since: last, slides });
+        let slides = matches!(cone.tangent[row], Tangent::Slide(_));
+        held.push(Held { touch: Touch { impulse: [0.0; 2], ..*touch }, force, since, slides, curved: false, row });
     }
     stop_rounding((group, resting), surroundings, cone, masses, paths);
-    let mut lasts = true;
+    // A contact that turns and carries nothing is left on its own.
+    let turns = |touch: &Touch| touch.side.is_none() && passes(touch, surroundings, paths);
+    let loaded = |one: &Held| one.force[0] > STILL * gravity * one.touch.normal_mass;
+    let curved = held[first_new..].iter().any(|one| turns(&one.touch) && loaded(one));
+    cone.normal.fill(Normal::Off);
     let mut place = 0;
-    held.retain(|one| {
+    held.retain_mut(|one| {
         place += 1;
         if place <= first_new {
             return true;
         }
-        let touch = &one.touch;
-        let moves = passing(touch, surroundings, paths);
-        let turns = match touch.side {
-            None => moves != 0.0,
-            Some([back, ahead]) => moves != 0.0 && (if moves > 0.0 { ahead } else { back }) <= AT_END * touch.distance,
-        };
-        let loaded = one.force[0] > STILL * gravity * touch.normal_mass;
-        lasts &= !(turns && loaded);
-        !turns
-    });
-    lasts
-}
-
-/// Acceleration by which surfaces part when their centres pass each other, without any force [m/s²].
-fn parting(touch: &Touch, paths: &[Path]) -> f64 {
-    match touch.side {
-        Some(_) => 0.0,
-        None => {
-            let speed = touch.passing_speed(paths);
-            speed * speed / touch.distance
+        let stays = loaded(one) || !turns(&one.touch);
+        if stays {
+            one.curved = curved;
+            cone.normal[one.row] = Normal::On;
         }
-    }
+        stays
+    });
+    if curved { Forces::Changing } else { Forces::Constant }
 }
 
-/// Whether and in which direction along the tangent the centres pass each other: its sign, or 0.
-fn passing(touch: &Touch, surroundings: &Surroundings, paths: &[Path]) -> f64 {
-    let speed = touch.passing_speed(paths);
-    if speed.abs() > STICKS * surroundings.rest + touch.rounding_speed(paths) {
-        return speed.signum();
-    }
+/// Whether the centres pass each other, or begin to.
+fn passes(touch: &Touch, surroundings: &Surroundings, paths: &[Path]) -> bool {
     let drive = touch.tangent().dot(paths[touch.a].drive - paths[touch.b].drive);
-    if drive.abs() > STILL * surroundings.gravity.length() { drive.signum() } else { 0.0 }
+    touch.passing_speed(paths).abs() > STICKS * surroundings.rest + touch.rounding_speed(paths)
+        || drive.abs() > STILL * surroundings.gravity.length()
 }
 
 /// Takes away what speed is left where surfaces rest and stick, and accelerations of rounding: nothing creeps.

@@ -54,6 +54,12 @@ impl Surfaces {
         self.body.len()
     }
 
+    /// Of all that can touch [m].
+    pub fn least_radius(&self) -> f64 {
+        let solid = self.radius.iter().zip(&self.solid).filter(|(_, solid)| **solid);
+        solid.fold(f64::INFINITY, |least, (radius, _)| least.min(*radius))
+    }
+
     pub fn is_dynamic(&self, place: usize) -> bool {
         self.masses.inverse_mass[place] > 0.0
     }

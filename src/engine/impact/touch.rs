@@ -105,6 +105,17 @@ impl Touch {
         self.tangent().dot(a.drive - b.drive) - self.arm_a * a.turn - self.arm_b * b.turn
     }
 
+    /// Acceleration by which the surfaces part when the centres pass each other, without any force [m/s²].
+    pub fn parting(&self, paths: &[Path]) -> f64 {
+        match self.side {
+            Some(_) => 0.0,
+            None => {
+                let speed = self.passing_speed(paths);
+                speed * speed / self.distance
+            }
+        }
+    }
+
     /// A speed below which nothing but rounding is left [m/s].
     pub fn rounding_speed(&self, paths: &[Path]) -> f64 {
         paths[self.a].rounding_speed(self.arm_a) + paths[self.b].rounding_speed(self.arm_b)
