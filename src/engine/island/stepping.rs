@@ -65,7 +65,7 @@ impl Islands {
                 report.sweeps = report.sweeps.max(quality.sweeps);
             }
             let system = &self.islands[index].1;
-            if outcome.failed || !in_range(system) {
+            if outcome.failed || !system.nodes.within(LARGEST_COORDINATE, LARGEST_SPEED) {
                 self.given_up.push(index);
                 continue;
             }
@@ -100,7 +100,9 @@ impl Islands {
                 if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
                     return (integrator, outcome);
                 }
-                system.load(world, time);
+                if !outcome.stiff {
+                    system.load(world, time);
+                }
             }
             integrator = Integrator::EnergyMomentum;
         }
@@ -124,6 +126,9 @@ impl Islands {
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
         for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
             system.store(world);
+            if world.bodies.rotors.omega.is_empty() {
+                continue;
+            }
             for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
                 let rotor = world.bodies.rotor[*body as usize];
                 if rotor != NO_ROTOR && world.bodies.inverse_mass[*body as usize] > 0.0 {
@@ -138,15 +143,4 @@ impl Islands {
             }
         }
     }
-}
-
-/// Whether all nodes are where numbers mean something.
-fn in_range(system: &System) -> bool {
-    let nodes = &system.nodes;
-    // Written so that a NaN is out of range.
-    let within = |values: &[f64], most: f64| values.iter().all(|value| value.abs() <= most);
-    within(&nodes.x, LARGEST_COORDINATE)
-        && within(&nodes.y, LARGEST_COORDINATE)
-        && within(&nodes.vx, LARGEST_SPEED)
-        && within(&nodes.vy, LARGEST_SPEED)
 }
