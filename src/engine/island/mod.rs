@@ -14,6 +14,7 @@ pub(crate) mod partition;
 pub(crate) mod projection;
 mod ropes;
 pub(crate) mod system;
+pub(crate) mod turning;
 
 mod stepping;
 

@@ -54,9 +54,7 @@ impl System {
     pub fn project_velocities(&mut self) {
         self.velocity_error();
         self.matrix.solve(&mut self.rhs);
-        let (mut vx, mut vy) = (std::mem::take(&mut self.nodes.vx), std::mem::take(&mut self.nodes.vy));
-        self.push(&mut vx, &mut vy);
-        (self.nodes.vx, self.nodes.vy) = (vx, vy);
+        self.push_velocities();
     }
 
     /// Writes −J v to the right-hand side.
@@ -73,12 +71,5 @@ impl System {
             rhs[0] = nodes.vx[a] - nodes.vx[b];
             rhs[1] = nodes.vy[a] - nodes.vy[b];
         }
-    }
-
-    /// x += M⁻¹ Jᵀ rhs.
-    pub fn move_nodes(&mut self) {
-        let (mut x, mut y) = (std::mem::take(&mut self.nodes.x), std::mem::take(&mut self.nodes.y));
-        self.push(&mut x, &mut y);
-        (self.nodes.x, self.nodes.y) = (x, y);
     }
 }

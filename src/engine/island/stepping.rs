@@ -123,7 +123,6 @@ impl Islands {
     pub fn store(&self, world: &mut World, time: f64) {
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
         for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
-            system.store(world);
             for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
                 let rotor = world.bodies.rotor[*body as usize];
                 if rotor != NO_ROTOR && world.bodies.inverse_mass[*body as usize] > 0.0 {
@@ -136,6 +135,8 @@ impl Islands {
                     rotors.omega[rotor as usize] = omega * kept;
                 }
             }
+            // After that, as it knows better of what does not turn freely.
+            system.store(world);
         }
     }
 }
@@ -149,4 +150,6 @@ fn in_range(system: &System) -> bool {
         && within(&nodes.y, LARGEST_COORDINATE)
         && within(&nodes.vx, LARGEST_SPEED)
         && within(&nodes.vy, LARGEST_SPEED)
+        && within(&system.turning.rotors.angle, LARGEST_SPEED * LARGEST_COORDINATE)
+        && within(&system.turning.rotors.omega, LARGEST_SPEED * LARGEST_COORDINATE)
 }

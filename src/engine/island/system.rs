@@ -2,11 +2,12 @@
 //!
 //! M a = f + Jᵀλ, with C = ½ (|d|² − L²) for a rod from a to b, d = x_b − x_a, so that J = (−dᵀ, dᵀ) is linear in the
 //! positions; λ d is then the force on b, and λ L the multiplier [N] that every solver of the engine reports. A pin has
-//! C = d, two rows.
+//! C = d, two rows. Where anchors are off the centres of discs the angles are unknowns as well: see [`super::turning`].
 
 use super::Nodes;
 use super::forces::{Held, Springs};
 use super::matrix::Matrix;
+use super::turning::Turning;
 use crate::engine::constraint::{Kind, WORLD};
 use crate::engine::method::LinearSolver;
 use crate::engine::world::World;
@@ -47,6 +48,8 @@ pub(crate) struct System {
     pub rods: Rods,
     pub pins: Pins,
     pub springs: Springs,
+    /// Discs that anchors turn.
+    pub turning: Turning,
     pub gravity: DVec2,
     /// [1/s]
     pub drag: f64,
@@ -78,6 +81,7 @@ impl System {
         for constraint in rods.chain(constraints.iter().filter(is_rope)) {
             system.add_constraint(world, bodies, *constraint);
         }
+        system.turning.hold(world, &mut system.nodes, bodies.len());
         let rows = system.rods.a.len();
         (system.dx, system.dy) = (vec![0.0; rows], vec![0.0; rows]);
         system.rhs = vec![0.0; rows + 2 * system.pins.a.len()];
@@ -91,10 +95,11 @@ impl System {
             if body == WORLD {
                 return self.nodes.push(WORLD, at.x, at.y, 0.0);
             }
-            match bodies.binary_search(&body) {
+            let node = match bodies.binary_search(&body) {
                 Ok(node) => node as u32,
                 Err(_) => self.fixed_node(world, body),
-            }
+            };
+            self.turning.anchor(world, &mut self.nodes, node, at)
         };
         let (a, b) = (end(c.a[i], c.at_a[i]), end(c.b[i], c.at_b[i]));
         match c.kind[i] {
@@ -150,6 +155,9 @@ impl System {
     /// Reads the bodies, and the hold if it is on one of them. `h` is the length of the step to come [s].
     pub fn load(&mut self, world: &World, h: f64) {
         self.nodes.load(world, h);
+        if self.turns() {
+            self.turning.load(world, &mut self.nodes);
+        }
         // The multipliers are where iterations begin: from the world, so that a fresh stepper goes on with the same bits.
         let force = &world.constraints.force;
         for ((lambda, constraint), square) in
@@ -160,13 +168,14 @@ impl System {
         for (lambda, constraint) in self.pins.lambda.iter_mut().zip(&self.pins.constraint) {
             *lambda = force[*constraint as usize];
         }
-        self.held = Held::of(world, &self.nodes);
+        self.held = Held::of(world, &self.nodes, self.turning.held_point());
         self.length = self.measure();
     }
 
     /// Writes the bodies and the multipliers back.
     pub fn store(&self, world: &mut World) {
         self.nodes.store(world);
+        self.turning.store(world);
         let force = &mut world.constraints.force;
         for (r, constraint) in self.rods.constraint.iter().enumerate() {
             let lambda = if self.rods.held[r] { self.rods.lambda[r] * self.rods.square[r].sqrt() } else { 0.0 };
@@ -181,6 +190,13 @@ impl System {
         }
     }
 
+    /// Takes note whether the hold's bound acts now.
+    pub fn see_bound(&mut self) {
+        if let Some(held) = &mut self.held {
+            held.bounded = held.unbounded(&self.nodes).length() > held.most;
+        }
+    }
+
     /// Whether nothing but forces acts.
     pub fn unconstrained(&self) -> bool {
         self.rods.a.is_empty() && self.pins.a.is_empty()
@@ -189,6 +205,9 @@ impl System {
     /// Fills the matrix for the present positions and factors it.
     pub fn factor(&mut self) {
         self.take_differences();
+        if self.turns() {
+            return self.factor_turning(self.solver);
+        }
         if !self.matrix.analysed() {
             self.matrix = Matrix::new(&self.nodes, &self.rods, &self.pins, self.solver);
         }
