@@ -84,6 +84,8 @@ pub(crate) struct IslandPlan {
     pub linear: (LinearSolver, u32),
     /// Local error allowed in a step, in parts of the island's size.
     pub tolerance: f64,
+    /// The same where a series stands in.
+    pub series_tolerance: f64,
     /// Steps within a step of the world, where the integrator does not find them itself.
     pub steps: Option<u32>,
 }
@@ -250,7 +252,13 @@ impl Plan {
                     write!(sentence, "{}, {} a step", spoken(integrator), plural(steps as usize, "substep"))
                 }
                 (Integrator::Rattle, None) => {
-                    write!(sentence, "RATTLE within {:.0e}, the midpoint rule where it is stiff", method.accuracy)
+                    let turning = carried().filter(|island| island.turning > 0).count();
+                    let other = match carried().count() - turning {
+                        0 => "Taylor series",
+                        _ if turning > 0 => "the midpoint rule or Taylor series",
+                        _ => "the midpoint rule",
+                    };
+                    write!(sentence, "RATTLE within {:.0e}, {other} where it is stiff", method.accuracy)
                 }
                 (_, None) => write!(sentence, "{} within {:.0e}", spoken(integrator), method.accuracy),
             };
@@ -340,16 +348,21 @@ impl Plan {
 }
 
 impl IslandPlan {
-    /// How an island is carried. Ropes that tighten and slacken need events, which only the series has, as it alone takes anchors that
-    /// turn; what Nyström's methods do not take goes by series too.
+    /// How an island is carried. Ropes that tighten and slacken need events, which only the series has; it takes anchors that turn as
+    /// well, as does RATTLE. What Nyström's methods do not take goes by series too.
     fn of(world: &World, method: &Method, group: Group, turning: usize) -> IslandPlan {
         let kinds = || group.constraints.iter().map(|i| &world.constraints.kind[*i as usize]);
         let ropes = kinds().any(|kind| matches!(kind, Kind::Rope { .. }));
         let plain_spring = |kind: &Kind| matches!(kind, Kind::Spring { damping, .. } if *damping == 0.0);
         let springs = world.drag == 0.0 && kinds().all(plain_spring);
+        let damper = |kind: &Kind| matches!(kind, Kind::Spring { damping, .. } if *damping > 0.0);
+        // Where anchors turn, only the series takes what depends on velocities.
+        let damped = turning > 0 && (world.drag > 0.0 || kinds().any(damper));
         let integrator = match method.integrator {
-            _ if ropes || turning > 0 => Integrator::Taylor,
-            _ if method.automatic && method.accuracy >= SECOND_ORDER => Integrator::Rattle,
+            _ if ropes => Integrator::Taylor,
+            _ if method.automatic && method.accuracy >= SECOND_ORDER && !damped => Integrator::Rattle,
+            Integrator::Rattle if turning > 0 && !method.automatic && !damped => Integrator::Rattle,
+            _ if turning > 0 => Integrator::Taylor,
             _ if method.automatic && springs && method.accuracy >= FINEST_NYSTROM => {
                 if method.accuracy >= ORDER_4 {
                     Integrator::Nystrom4
@@ -364,14 +377,13 @@ impl IslandPlan {
         let rigid = kinds().filter(|kind| !matches!(kind, Kind::Spring { .. })).count();
         let net = rigid > group.bodies.len() + 1;
         let steps = (!method.automatic).then_some(method.substeps);
-        let tolerance = match integrator {
-            Integrator::Rattle => LOCAL_SECOND * method.accuracy,
-            _ => LOCAL * method.accuracy.min(LOOSEST_SERIES),
-        };
+        let series_tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
+        let tolerance =
+            if integrator == Integrator::Rattle { LOCAL_SECOND * method.accuracy } else { series_tolerance };
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
         let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);
-        IslandPlan { group, integrator, guarded: false, net, turning, linear, tolerance, steps }
+        IslandPlan { group, integrator, guarded: false, net, turning, linear, tolerance, series_tolerance, steps }
     }
 }
 

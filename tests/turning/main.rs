@@ -33,12 +33,17 @@ fn join(world: &mut World, kind: Kind, a: Anchor, b: Anchor) -> Id {
     world.add_constraint(&Constraint { kind, a, b }).unwrap()
 }
 
-/// One step in which everything goes by series; nothing may diverge or be given up.
+/// One step in which everything is carried whole; nothing may diverge or be given up.
 fn step(world: &mut World, stepper: &mut Stepper) -> StepReport {
     let report = stepper.step(world);
     assert!(report.divergence.is_none() && report.given_up == 0 && report.substeps == 0, "{report:?}");
-    assert_eq!(report.integrator, Some(Integrator::Taylor));
+    assert!(report.integrator.is_some());
     report
+}
+
+/// What is allowed after a second or two: quick methods down to 6e-4, series to 1e-5 at the loosest, and some rounding.
+fn allowed(accuracy: f64) -> f64 {
+    if accuracy >= 6e-4 { accuracy } else { accuracy.min(1e-5) + 1e-12 }
 }
 
 fn angle(world: &World, body: usize) -> f64 {

@@ -31,14 +31,23 @@ fn ring() -> World {
 }
 
 #[test]
-fn the_plan_says_that_anchors_turn_and_that_the_series_takes_them() {
-    let world = ring();
-    for method in [by_accuracy(1e-3), Method { integrator: Integrator::Rattle, ..Method::default() }] {
-        let mut stepper = Stepper::new(method).unwrap();
-        let sentence = stepper.plan(&world).sentence().to_owned();
-        println!("{sentence}");
-        assert!(sentence.contains("1 island by Taylor series") && sentence.contains("18 anchors off a centre"));
-        assert!(sentence.contains("rotations"));
+fn the_plan_says_that_anchors_turn_and_what_takes_them() {
+    let by_hand = |integrator| Method { integrator, ..Method::default() };
+    for (method, how) in [
+        (by_accuracy(1e-3), "1 island by RATTLE within 1e-3, Taylor series where it is stiff, solved directly"),
+        (by_accuracy(1e-9), "1 island by Taylor series to 1e-9, solved directly"),
+        (by_hand(Integrator::Rattle), "1 island by RATTLE, 4 substeps a step, solved directly"),
+        (by_hand(Integrator::EnergyMomentum), "1 island by Taylor series to 1e-6, solved directly"),
+    ] {
+        for drag in [0.0, 0.1] {
+            let mut world = ring();
+            world.set_drag(drag).unwrap();
+            let mut stepper = Stepper::new(method).unwrap();
+            let sentence = stepper.plan(&world).sentence().to_owned();
+            println!("{sentence}");
+            let how = if drag == 0.0 { how } else { "1 island by Taylor series" };
+            assert!(sentence.contains(how) && sentence.contains("18 anchors off a centre; rotations"));
+        }
     }
 }
 

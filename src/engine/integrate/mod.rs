@@ -13,6 +13,7 @@ pub(crate) mod outcome;
 pub(crate) mod pace;
 mod position_verlet;
 pub(crate) mod rattle;
+pub(crate) mod rattle_turning;
 pub(crate) mod runge_kutta;
 mod semi_implicit_euler;
 pub(crate) mod taylor;

@@ -4,7 +4,7 @@
 //! under [`crate::engine::integrate`] keep their full order. An island is a copy of its bodies in arrays of coordinates,
 //! made for a plan and filled anew in every step.
 
-mod accelerations;
+pub(crate) mod accelerations;
 pub(crate) mod forces;
 pub(crate) mod linear;
 pub(crate) mod matrix;

@@ -11,6 +11,7 @@ use crate::engine::integrate::nystrom::Nystrom;
 use crate::engine::integrate::outcome::Outcome;
 use crate::engine::integrate::pace::Pace;
 use crate::engine::integrate::rattle::Rattle;
+use crate::engine::integrate::rattle_turning::RattleTurning;
 use crate::engine::integrate::runge_kutta::RungeKutta;
 use crate::engine::integrate::taylor::Taylor;
 use crate::engine::plan::{IslandPlan, Plan};
@@ -23,6 +24,7 @@ pub(crate) struct Islands {
     islands: Vec<(IslandPlan, System)>,
     taylor: Taylor,
     rattle: Rattle,
+    rattle_turning: RattleTurning,
     runge_kutta: RungeKutta,
     nystrom: Nystrom,
     /// By island: it keeps the order in which the island is eliminated.
@@ -93,6 +95,16 @@ impl Islands {
             // The mouse's hold has a damper.
             integrator = Integrator::Taylor;
         }
+        if integrator == Integrator::Rattle && system.turns() {
+            if RattleTurning::takes(system) {
+                let outcome = self.rattle_turning.advance(system, time, pace);
+                if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
+                    return (integrator, outcome);
+                }
+                system.load(world, time);
+            }
+            integrator = Integrator::Taylor;
+        }
         if integrator == Integrator::Rattle {
             // The factor of a net costs more than all else, and RATTLE takes one a substep.
             if plan.steps.is_some() || !plan.net {
@@ -109,7 +121,7 @@ impl Islands {
             Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
-            _ => self.taylor.advance(system, time, tolerance),
+            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length),
         };
         (integrator, outcome)
     }

@@ -4,6 +4,7 @@
 //! so that all that only reads ends (rods, springs, the events of ropes, the hold) needs no case for it; what moves the bodies
 //! goes through this room. In an island where no anchor is off a centre all of it is empty, and nothing here is called.
 
+mod accelerations;
 mod rows;
 
 use super::{Nodes, System};
@@ -11,7 +12,7 @@ use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::Grip;
 use crate::engine::world::World;
 use glam::DVec2;
-pub(crate) use rows::Rows;
+pub(crate) use rows::{End, Rows};
 
 /// No arm, no rotor.
 const NONE: u32 = u32::MAX;
@@ -59,8 +60,9 @@ pub(crate) struct Turning {
     pub rows: Rows,
     /// The arm that the mouse holds.
     held: Option<usize>,
-    /// By node: its rotor; shorter than the nodes, or NONE, where there is none.
+    /// By node: its rotor, and the arm that it is the end of; shorter than the nodes, or NONE, where there is none.
     rotor_at: Vec<u32>,
+    arm_at: Vec<u32>,
 }
 
 impl Turning {
@@ -79,6 +81,8 @@ impl Turning {
         }
         let rotor = self.rotor(world, node, body);
         let point = nodes.push_point();
+        self.arm_at.resize(point as usize, NONE);
+        self.arm_at.push(self.arms.point.len() as u32);
         self.arms.point.push(point);
         self.arms.rotor.push(rotor);
         self.arms.local.push(local);
@@ -109,6 +113,14 @@ impl Turning {
         }
         rotors.cos.push(1.0);
         index
+    }
+
+    /// The end of a row that stands at this node.
+    fn end(&self, point: u32) -> End {
+        match self.arm_at.get(point as usize).copied().unwrap_or(NONE) {
+            NONE => End { node: point, arm: NONE },
+            arm => End { node: self.rotors.node[self.arms.rotor[arm as usize] as usize], arm },
+        }
     }
 
     /// Takes an arm for the mouse's hold on one of the first `movable` nodes, if it turns a disc.

@@ -104,15 +104,14 @@ impl Rows {
 impl Turning {
     /// Finds rows and entries, and analyses their pattern.
     fn analyse(&mut self, nodes: &Nodes, rods: &Rods, pins: &Pins, linear: (LinearSolver, u32)) -> Matrix {
-        let mut arm_at = vec![NONE; nodes.len()];
-        self.arms.point.iter().enumerate().for_each(|(arm, point)| arm_at[*point as usize] = arm as u32);
-        let end = |point: u32| match arm_at[point as usize] {
-            NONE => End { node: point, arm: NONE },
-            arm => End { node: self.rotors.node[self.arms.rotor[arm as usize] as usize], arm },
-        };
         let rod_count = rods.a.len();
-        let blocks: Vec<[End; 2]> =
-            rods.a.iter().zip(&rods.b).chain(pins.a.iter().zip(&pins.b)).map(|(a, b)| [end(*a), end(*b)]).collect();
+        let blocks: Vec<[End; 2]> = rods
+            .a
+            .iter()
+            .zip(&rods.b)
+            .chain(pins.a.iter().zip(&pins.b))
+            .map(|(a, b)| [self.end(*a), self.end(*b)])
+            .collect();
         let sizes: Vec<u8> = (0..blocks.len()).map(|k| if k < rod_count { 1 } else { 2 }).collect();
         let first = |k: usize| if k < rod_count { k } else { 2 * k - rod_count };
         let mut ldl = Ldl::default();
