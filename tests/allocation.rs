@@ -69,6 +69,10 @@ fn a_warm_step_allocates_nothing() {
             assert_eq!(found, 0, "{name}, {}", integrator.name());
         }
     }
+    for name in ["disc_chain", "crank", "hard/heavy_disc_chain"] {
+        let found = allocations(name, |method| method, 60);
+        assert_eq!(found, 0, "{name}");
+    }
     for linear in LinearSolver::ALL {
         let found =
             allocations("truth/bridge", |method| Method { integrator: Integrator::Rattle, linear, ..method }, 10);

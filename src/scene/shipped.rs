@@ -42,6 +42,8 @@ pub fn shipped() -> &'static [Shipped] {
         "pile": "Pile of 2,000 discs",
         "stack": "Stack of ten",
         "spring_chain": "Spring chain",
+        "disc_chain": "Chain of discs",
+        "crank": "Crank",
         "bullet": "Bullet",
         "joint_grid": "Joint grid",
     }
@@ -83,6 +85,8 @@ pub fn hard_scenes() -> &'static [Shipped] {
         "hard/rigid_net": "Rigid net",
         "hard/braced_net": "Rigid net with diagonals",
         "hard/wheel": "Braced wheel",
+        "hard/physical_pendulum": "Pinned disc",
+        "hard/heavy_disc_chain": "A hundred kilograms on discs of ten grams",
     }
 }
 

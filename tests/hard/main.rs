@@ -4,6 +4,7 @@ mod closed_forms;
 mod nets;
 mod ropes;
 mod statics;
+mod turning;
 
 use tautline::engine::{DVec2, Method, StepReport, Stepper, World};
 use tautline::measure::{Measures, error_against};

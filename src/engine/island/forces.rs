@@ -168,21 +168,23 @@ pub(crate) struct Held {
     pub damping: f64,
     /// [N]
     pub most: f64,
+    /// Whether the bound acts, as long as a series holds.
+    pub bounded: bool,
 }
 
 impl Held {
-    /// The world's hold, if it is on a node that can be pushed.
-    pub fn of(world: &World, nodes: &Nodes) -> Option<Held> {
+    /// The world's hold, if it is on a node that can be pushed; `point` is the node that it holds in place of a centre, if it does.
+    pub fn of(world: &World, nodes: &Nodes, point: Option<usize>) -> Option<Held> {
         let grip = world.grip.as_ref()?;
         let body = world.bodies.index_of(grip.body)?;
         let node = nodes.body.iter().position(|b| *b == body as u32)?;
-        (nodes.w[node] > 0.0).then(|| Held::new(grip, node, world.bodies.mass[body]))
+        (nodes.w[node] > 0.0).then(|| Held::new(grip, point.unwrap_or(node), world.bodies.mass[body]))
     }
 
     fn new(grip: &Grip, node: usize, mass: f64) -> Held {
         let omega = TAU * grip.frequency;
         let (stiffness, damping) = (mass * omega * omega, 2.0 * grip.damping_ratio * mass * omega);
-        Held { node, target: grip.target, stiffness, damping, most: grip.max_force }
+        Held { node, target: grip.target, stiffness, damping, most: grip.max_force, bounded: false }
     }
 
     /// Spring and damper without the bound [N].

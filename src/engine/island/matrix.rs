@@ -96,6 +96,19 @@ impl Matrix {
         matrix
     }
 
+    /// A matrix whose values others fill in, analysed already; `entries` as for [`Linear::new`].
+    pub fn of_entries(
+        ldl: Ldl,
+        summary: Summary,
+        (solver, iterations): (LinearSolver, u32),
+        rows: usize,
+        entries: Vec<Entry>,
+    ) -> Matrix {
+        let other =
+            (solver != LinearSolver::SparseLdl).then(|| Box::new(Linear::new(solver, iterations, rows, entries)));
+        Matrix { ldl, summary, linear: other, ..Matrix::default() }
+    }
+
     /// The weights of [`Matrix::chain`], none if the rows are no chain of rods in their order.
     fn find_chain(&self) -> Vec<f64> {
         let n = self.diagonal.len();
@@ -125,7 +138,7 @@ impl Matrix {
 
     /// Whether the pattern is known.
     pub fn analysed(&self) -> bool {
-        !self.diagonal.is_empty() || !self.pin_diagonal.is_empty()
+        self.summary.rows > 0
     }
 
     /// All entries, of both triangles: rows of rods, then two a pin, whose blocks have no entries off their diagonals.
@@ -198,6 +211,16 @@ impl Matrix {
         } else {
             self.fill_chain(dx, dy);
         }
+        self.factor_values();
+    }
+
+    /// Fills the values in by `fill`, and factors.
+    pub fn refactor(&mut self, fill: impl FnOnce(&mut [f64])) {
+        fill(self.ldl.values_mut());
+        self.factor_values();
+    }
+
+    fn factor_values(&mut self) {
         self.pivots = match &mut self.linear {
             Some(linear) => Pivots { dropped: linear.factor(self.ldl.values()), ..Pivots::default() },
             None => self.ldl.factor(),

@@ -4,7 +4,7 @@
 //! under [`crate::engine::integrate`] keep their full order. An island is a copy of its bodies in arrays of coordinates,
 //! made for a plan and filled anew in every step.
 
-mod accelerations;
+pub(crate) mod accelerations;
 pub(crate) mod forces;
 pub(crate) mod lanes;
 pub(crate) mod linear;
@@ -16,6 +16,7 @@ pub(crate) mod partition;
 pub(crate) mod projection;
 mod ropes;
 pub(crate) mod system;
+pub(crate) mod turning;
 
 mod stepping;
 

@@ -10,7 +10,7 @@ use glam::DVec2;
 /// Coordinates by node. A node whose inverse mass is 0 moves on with its own velocity (0 for a fixed point).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Nodes {
-    /// Dense index of the body, or [`WORLD`] for a fixed anchor.
+    /// Dense index of the body, or [`WORLD`] for a fixed anchor and one that turns with a body.
     pub body: Vec<u32>,
     /// [m]
     pub x: Vec<f64>,
@@ -83,6 +83,11 @@ impl Nodes {
             self.fixed.push(node);
         }
         node
+    }
+
+    /// Adds a node without mass that is placed by others.
+    pub fn push_point(&mut self) -> u32 {
+        self.push(WORLD, 0.0, 0.0, 0.0)
     }
 
     /// Reads positions and velocities. Where the mouse leads a static body it moves for `h` seconds as it is led.

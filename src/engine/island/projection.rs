@@ -90,9 +90,7 @@ impl System {
     pub fn project_velocities(&mut self) {
         self.velocity_error();
         self.matrix.solve(&mut self.rhs);
-        let (mut vx, mut vy) = (std::mem::take(&mut self.nodes.vx), std::mem::take(&mut self.nodes.vy));
-        self.push(&mut vx, &mut vy);
-        (self.nodes.vx, self.nodes.vy) = (vx, vy);
+        self.push_velocities();
     }
 
     /// Writes −J v to the right-hand side. Returns the largest entry in parts of what the largest velocity could bring about, NaN if
@@ -123,12 +121,5 @@ impl System {
         }
         let most = largest.value().sqrt();
         if most == 0.0 { 0.0 } else { most / nodes.fastest() }
-    }
-
-    /// x += M⁻¹ Jᵀ rhs.
-    pub fn move_nodes(&mut self) {
-        let (mut x, mut y) = (std::mem::take(&mut self.nodes.x), std::mem::take(&mut self.nodes.y));
-        self.push(&mut x, &mut y);
-        (self.nodes.x, self.nodes.y) = (x, y);
     }
 }

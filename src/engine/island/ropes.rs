@@ -50,19 +50,13 @@ impl System {
             self.matrix.solve(&mut self.rhs);
             let pushes = |r: &usize| {
                 let noise = 1e-12 * speed / self.rods.square[*r].sqrt();
-                self.rods.held[*r] && self.rhs[*r] * self.reduced(*r) > noise
+                self.rods.held[*r] && self.rhs[*r] * self.mobility(*r) > noise
             };
             let Some(first) = self.ropes().find(pushes) else { break };
             self.rods.held[first] = false;
             self.factor();
         }
-        let (mut vx, mut vy) = (std::mem::take(&mut self.nodes.vx), std::mem::take(&mut self.nodes.vy));
-        self.push(&mut vx, &mut vy);
-        (self.nodes.vx, self.nodes.vy) = (vx, vy);
-    }
-
-    fn reduced(&self, r: usize) -> f64 {
-        self.nodes.w[self.rods.a[r] as usize] + self.nodes.w[self.rods.b[r] as usize]
+        self.push_velocities();
     }
 
     /// Lets go of the rope that pushes hardest with these multipliers; returns whether there is one.

@@ -11,6 +11,7 @@ use crate::engine::integrate::nystrom::Nystrom;
 use crate::engine::integrate::outcome::Outcome;
 use crate::engine::integrate::pace::Pace;
 use crate::engine::integrate::rattle::Rattle;
+use crate::engine::integrate::rattle_turning::RattleTurning;
 use crate::engine::integrate::runge_kutta::RungeKutta;
 use crate::engine::integrate::taylor::Taylor;
 use crate::engine::plan::{IslandPlan, Plan};
@@ -23,6 +24,7 @@ pub(crate) struct Islands {
     islands: Vec<(IslandPlan, System)>,
     taylor: Taylor,
     rattle: Rattle,
+    rattle_turning: RattleTurning,
     runge_kutta: RungeKutta,
     nystrom: Nystrom,
     /// By island: it keeps the order in which the island is eliminated.
@@ -65,7 +67,7 @@ impl Islands {
                 report.sweeps = report.sweeps.max(quality.sweeps);
             }
             let system = &self.islands[index].1;
-            if outcome.failed || !system.nodes.within(LARGEST_COORDINATE, LARGEST_SPEED) {
+            if outcome.failed || !in_range(system) {
                 self.given_up.push(index);
                 continue;
             }
@@ -93,6 +95,16 @@ impl Islands {
             // The mouse's hold has a damper.
             integrator = Integrator::Taylor;
         }
+        if integrator == Integrator::Rattle && system.turns() {
+            if RattleTurning::takes(system) {
+                let outcome = self.rattle_turning.advance(system, time, pace);
+                if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
+                    return (integrator, outcome);
+                }
+                system.load(world, time);
+            }
+            integrator = Integrator::Taylor;
+        }
         if integrator == Integrator::Rattle {
             // The factor of a net costs more than all else, and RATTLE takes one a substep.
             if plan.steps.is_some() || !plan.net {
@@ -111,7 +123,7 @@ impl Islands {
             Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
-            _ => self.taylor.advance(system, time, tolerance),
+            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length),
         };
         (integrator, outcome)
     }
@@ -125,8 +137,8 @@ impl Islands {
     pub fn store(&self, world: &mut World, time: f64) {
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
         for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
-            system.store(world);
             if world.bodies.rotors.omega.is_empty() {
+                system.store(world);
                 continue;
             }
             for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
@@ -141,6 +153,16 @@ impl Islands {
                     rotors.omega[rotor as usize] = omega * kept;
                 }
             }
+            // After that, as it knows better of what does not turn freely.
+            system.store(world);
         }
     }
+}
+
+/// Whether all nodes are where numbers mean something, and turn as fast as numbers allow.
+fn in_range(system: &System) -> bool {
+    // Written so that a NaN is out of range.
+    let within = |values: &[f64]| values.iter().all(|value| value.abs() <= LARGEST_SPEED * LARGEST_COORDINATE);
+    let rotors = &system.turning.rotors;
+    system.nodes.within(LARGEST_COORDINATE, LARGEST_SPEED) && within(&rotors.angle) && within(&rotors.omega)
 }

@@ -2,12 +2,13 @@
 //!
 //! M a = f + Jᵀλ, with C = ½ (|d|² − L²) for a rod from a to b, d = x_b − x_a, so that J = (−dᵀ, dᵀ) is linear in the
 //! positions; λ d is then the force on b, and λ L the multiplier [N] that every solver of the engine reports. A pin has
-//! C = d, two rows.
+//! C = d, two rows. Where anchors are off the centres of discs the angles are unknowns as well: see [`super::turning`].
 
 use super::Nodes;
 use super::forces::{Held, Springs};
 use super::matrix::Matrix;
 use super::pairs::{self, Pairs};
+use super::turning::Turning;
 use crate::engine::constraint::{Kind, WORLD};
 use crate::engine::method::LinearSolver;
 use crate::engine::world::World;
@@ -51,6 +52,8 @@ pub(crate) struct System {
     pub rods: Rods,
     pub pins: Pins,
     pub springs: Springs,
+    /// Discs that anchors turn.
+    pub turning: Turning,
     pub gravity: DVec2,
     /// [1/s]
     pub drag: f64,
@@ -98,6 +101,7 @@ impl System {
             (is_rope, pairs::order(*a, *b), *i)
         });
         joined.into_iter().for_each(|((a, b), i)| system.add_constraint(world, a, b, i));
+        system.turning.hold(world, &mut system.nodes, bodies);
         let rows = system.rods.a.len();
         (system.dx, system.dy) = (vec![0.0; rows], vec![0.0; rows]);
         system.scratch = [vec![0.0; rows], vec![0.0; rows]];
@@ -112,7 +116,7 @@ impl System {
     fn ends(&mut self, world: &World, bodies: &[u32], constraint: usize) -> (u32, u32) {
         let c = &world.constraints;
         let mut end = |body: u32, at: DVec2| match bodies.binary_search(&body) {
-            Ok(node) => node as u32,
+            Ok(node) => self.turning.anchor(world, &mut self.nodes, node as u32, at),
             // An anchor in the world.
             Err(_) => self.nodes.push(WORLD, at.x, at.y, 0.0),
         };
@@ -161,6 +165,9 @@ impl System {
     /// Reads the bodies, and the hold if it is on one of them. `h` is the length of the step to come [s].
     pub fn load(&mut self, world: &World, h: f64) {
         self.nodes.load(world, h);
+        if self.turns() {
+            self.turning.load(world, &mut self.nodes);
+        }
         // The multipliers are where iterations begin: from the world, so that a fresh stepper goes on with the same bits.
         let force = &world.constraints.force;
         let rods = &mut self.rods;
@@ -170,13 +177,14 @@ impl System {
         for (lambda, constraint) in self.pins.lambda.iter_mut().zip(&self.pins.constraint) {
             *lambda = force[*constraint as usize];
         }
-        self.held = Held::of(world, &self.nodes);
+        self.held = Held::of(world, &self.nodes, self.turning.held_point());
         self.length = self.measure();
     }
 
     /// Writes the bodies and the multipliers back.
     pub fn store(&self, world: &mut World) {
         self.nodes.store(world);
+        self.turning.store(world);
         let force = &mut world.constraints.force;
         let rods = &self.rods;
         let multipliers = rods.lambda.iter().zip(&rods.length).zip(&rods.held);
@@ -193,6 +201,13 @@ impl System {
         }
     }
 
+    /// Takes note whether the hold's bound acts now.
+    pub fn see_bound(&mut self) {
+        if let Some(held) = &mut self.held {
+            held.bounded = held.unbounded(&self.nodes).length() > held.most;
+        }
+    }
+
     /// Whether nothing but forces acts.
     pub fn unconstrained(&self) -> bool {
         self.rods.a.is_empty() && self.pins.a.is_empty()
@@ -201,6 +216,9 @@ impl System {
     /// Fills the matrix for the present positions and factors it.
     pub fn factor(&mut self) {
         self.take_differences();
+        if self.turns() {
+            return self.factor_turning(self.solver);
+        }
         // A step begins where the last one ended: its matrix is there already. Ropes change it without moving.
         let [fx, fy] = &mut self.factored;
         if *fx == self.dx && *fy == self.dy && self.matrix.analysed() && self.rods.first_rope == self.rods.a.len() {
