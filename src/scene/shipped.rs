@@ -87,6 +87,18 @@ pub fn hard_scenes() -> &'static [Shipped] {
         "hard/wheel": "Braced wheel",
         "hard/physical_pendulum": "Pinned disc",
         "hard/heavy_disc_chain": "A hundred kilograms on discs of ten grams",
+        "hard/bouncing_ball": "Bouncing balls",
+        "hard/restitution_row": "Restitution row",
+        "hard/bounce_box": "Bounce box",
+        "hard/two_body_exchange": "Two-body exchange",
+        "hard/cradle": "Row of five",
+        "hard/slide": "Slide",
+        "hard/roll": "Roll",
+        "hard/ramp_row": "Ramp row",
+        "hard/weighing": "Weighing",
+        "hard/circle_stack": "Circle stack",
+        "hard/bullet": "Bullet at a thin wall",
+        "hard/wedge": "Wedge",
     }
 }
 

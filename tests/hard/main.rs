@@ -1,6 +1,7 @@
 //! The hard cases under `scenes/hard`, each with its pass, as they open: settings included. Figures are printed; `--nocapture`.
 
 mod closed_forms;
+mod impacts;
 mod nets;
 mod ropes;
 mod statics;
