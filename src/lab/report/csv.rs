@@ -7,16 +7,12 @@ use std::io::Write;
 pub const HEADER: &str = "scene,method,hz,substeps,iterations,tolerance,cpu_us_per_second,error,error_kind,violation_max,\
                           energy_drift";
 
-/// Writes the header and all points. `{:?}` writes the fewest digits that are read back to the same bits.
-pub fn write(out: &mut dyn Write, points: &[Point]) -> std::io::Result<()> {
-    writeln!(out, "{HEADER}")?;
-    for point in points {
-        write!(out, "{},{},{:?},", quoted(&point.scene), point.method.key(), point.hz)?;
-        write!(out, "{},{},{},", cell(point.substeps), cell(point.iterations), number(point.tolerance))?;
-        write!(out, "{:?},{},{},", point.cpu_us_per_second, number(point.error), point.error_kind)?;
-        writeln!(out, "{:?},{:?}", point.violation_max, point.energy_drift)?;
-    }
-    Ok(())
+/// Writes a row. `{:?}` writes the fewest digits that are read back to the same bits.
+pub fn write(out: &mut dyn Write, point: &Point) -> std::io::Result<()> {
+    write!(out, "{},{},{:?},", quoted(&point.scene), point.method.key(), point.hz)?;
+    write!(out, "{},{},{},", cell(point.substeps), cell(point.iterations), number(point.tolerance))?;
+    write!(out, "{:?},{},{},", point.cpu_us_per_second, number(point.error), point.error_kind)?;
+    writeln!(out, "{:?},{:?}", point.violation_max, point.energy_drift)
 }
 
 fn cell(value: Option<u32>) -> String {
