@@ -1,6 +1,6 @@
 //! The front: points that no other beats in both error and cost, and what to use.
 
-use super::point::Point;
+use super::point::{ErrorKind, Point};
 use super::setting::Setting;
 
 /// Points in the order of their cost, each with a smaller error than all before it.
@@ -88,9 +88,10 @@ impl Front {
         }
     }
 
-    /// How far the front is ahead of `baseline`, if that was measured among `points`.
+    /// How far the front is ahead of `baseline`; `None` if that was not measured among `points` or not compared with anything.
     pub fn gain(&self, points: &[Point], baseline: Setting) -> Option<Gain> {
-        let baseline = points.iter().find(|point| point.setting() == baseline)?.clone();
+        let compared = |point: &&Point| point.setting() == baseline && point.error_kind != ErrorKind::None;
+        let baseline = points.iter().find(compared)?.clone();
         let at_its_cost = self.best_within(baseline.cpu_us_per_second);
         let at_its_error = self.cheapest_for(error(&baseline));
         Some(Gain {
