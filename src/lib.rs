@@ -4,6 +4,7 @@
 //! - `window` (binary's desktop shell): the winit loop that ties `ui`, `render` and `app` together
 //! - `ui`: egui panels and plots; `render`: wgpu pipelines, one per kind of mark
 //! - `app`: the simulation thread, commands, camera, tools, undo
+//! - [`lab`]: speed against error: sweeps, references, fronts, reports
 //! - [`measure`]: energy, momentum, violation, penetration, error against a truth
 //! - [`scene`]: the file format, its errors, its generators
 //! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
@@ -13,6 +14,7 @@
 pub mod app;
 pub mod cli;
 pub mod engine;
+pub mod lab;
 pub mod measure;
 #[cfg(feature = "desktop")]
 pub mod render;
