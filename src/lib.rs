@@ -4,6 +4,7 @@
 //! - `window` (binary's desktop shell): the winit loop that ties `ui`, `render` and `app` together
 //! - `ui`: egui panels and plots; `render`: wgpu pipelines, one per kind of mark
 //! - `app`: the simulation thread, commands, camera, tools, undo
+//! - [`trial`]: the pass of a hard case, evaluated while it runs
 //! - [`measure`]: energy, momentum, violation, penetration, error against a truth
 //! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
 //! - [`scene`]: the file format, its errors, its generators
@@ -17,6 +18,7 @@ pub mod measure;
 #[cfg(feature = "desktop")]
 pub mod render;
 pub mod scene;
+pub mod trial;
 pub mod truth;
 #[cfg(feature = "desktop")]
 pub mod ui;

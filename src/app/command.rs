@@ -22,6 +22,10 @@ pub enum Command {
     Gravity(DVec2),
     Drag(f64),
     Tuning(Tuning),
+    /// Lets the truth follow the simulation, or no longer.
+    Truth(bool),
+    /// Lets a rival under this method follow the simulation, gives it this method, or ends it.
+    Rival(Option<Method>),
     /// Takes hold of a body at a point of the world; replaces any hold.
     Grab {
         body: Id,

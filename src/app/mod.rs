@@ -3,6 +3,7 @@
 
 pub mod camera;
 pub mod command;
+pub mod companion;
 pub mod drawn;
 pub mod edit;
 pub mod frame;
@@ -18,10 +19,11 @@ pub mod trace;
 
 pub use camera::Camera;
 pub use command::{Command, Edit, Spawn};
+pub use companion::{Companion, Companions};
 pub use frame::{Frame, SceneInfo, Speed};
 pub use keys::Action;
 pub use plot_data::{Plots, Sample};
 pub use session::Session;
-pub use simulation::frame_after;
+pub use simulation::{Beside, frame_after};
 pub use tools::{Button, Feedback, Join, Modifiers, Phase, PointerEvent, Tool, Tools};
 pub use trace::Trace;

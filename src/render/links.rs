@@ -266,6 +266,8 @@ mod tests {
             undo: None,
             redo: None,
             touched: std::sync::Arc::default(),
+            companions: crate::app::Companions::default(),
+            trial: None,
         };
         let camera = Camera { centre: DVec2::ZERO, scale: 50.0, size: DVec2::new(400.0, 300.0) };
         let mut picture = Picture::new();

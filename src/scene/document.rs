@@ -1,6 +1,7 @@
 //! The scene as it stands in a file: every field of the format, its unit and its default.
 
 use super::generator::Generator;
+use super::pass::Pass;
 use crate::engine::{DVec2, Integrator, LinearSolver, Method, Motion, Solver, Tuning};
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -26,6 +27,9 @@ pub struct Document {
     /// What its exact motion is compared over; only in scenes that have one: particles, rods and springs that never touch.
     #[serde(default, skip_serializing_if = "is_default")]
     pub truth: Option<Truth>,
+    /// What a run of it must keep to, as it opens; shown beside its name and tried by a test.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub pass: Option<Pass>,
     #[serde(default, skip_serializing_if = "is_default")]
     pub settings: Settings,
     #[serde(default, skip_serializing_if = "is_default")]
@@ -47,6 +51,7 @@ impl Default for Document {
             about: String::new(),
             view: None,
             truth: None,
+            pass: None,
             settings: Settings::default(),
             bodies: Vec::new(),
             walls: Vec::new(),

@@ -12,6 +12,7 @@ pub mod generator;
 mod locate;
 mod names;
 mod nearest;
+mod pass;
 mod random;
 mod read;
 mod save;
@@ -22,6 +23,7 @@ pub use document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settin
 pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use generator::Generator;
+pub use pass::{Limit, Pass};
 pub use read::{LARGEST_FILE, open, parse, read_file};
 pub(crate) use save::behind_links;
 pub use save::{save, to_ron};
@@ -45,4 +47,6 @@ pub struct Setup {
     pub view: Option<(DVec2, f64)>,
     /// What its exact motion is compared over, if it has one.
     pub truth: Option<Truth>,
+    /// What a run must keep to, if the scene is a trial of the engine.
+    pub pass: Option<Pass>,
 }

@@ -2,7 +2,9 @@
 //! graphics device; the scene itself is drawn below, in the rectangle that [`ShellOutput::canvas`] names.
 
 mod actions;
+mod badge;
 mod canvas;
+mod companions;
 mod draft;
 mod fault;
 pub mod finder;

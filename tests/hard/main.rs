@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod nets;
+mod passes;
 mod ropes;
 mod statics;
 
