@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use tautline::app::companion::{CHAOTIC, Report, Standing, VISIBLE};
+use tautline::app::companion::{PARTED, Report, Standing, VISIBLE};
 use tautline::app::{Beside, Command, Companion, Edit, Frame, Session, Spawn, frame_after};
 use tautline::engine::{Body, DVec2, Id, Integrator, Method, Wall, World};
 use tautline::scene::{self, Setup};
@@ -187,11 +187,11 @@ fn billiards() -> Setup {
 fn where_neighbouring_motions_part_there_is_no_reference_any_more() {
     let frame = frame_after(billiards(), 12.0, &Beside { truth: true, rival: None });
     let report = truth_of(&frame);
-    let Standing::Chaotic { after } = report.standing else { panic!("{:?}", report.standing) };
+    let Standing::Parted { after, .. } = report.standing else { panic!("{:?}", report.standing) };
     println!("billiards: no reference after {after:.2} s");
     assert!(after > 0.1 && after < 12.0);
     assert!(report.gap.is_none() && report.offsets.bodies.is_empty(), "a ghost of nothing must not be drawn");
-    assert!(CHAOTIC < VISIBLE, "the truth is given up before the simulation would seem to leave it by itself");
+    assert!(PARTED < VISIBLE, "the truth is given up before the simulation would seem to leave it by itself");
 }
 
 #[test]

@@ -42,6 +42,7 @@ fn frame(world: World) -> Frame {
         trace: tautline::app::Trace::default(),
         touched: std::sync::Arc::default(),
         companions: tautline::app::Companions::default(),
+        lab: tautline::app::Lab::default(),
         trial: None,
     }
 }

@@ -164,6 +164,7 @@ fn bridge() -> Frame {
         redo: None,
         touched: Arc::default(),
         companions: tautline::app::Companions::default(),
+        lab: tautline::app::Lab::default(),
         trial: None,
     }
 }
@@ -730,7 +731,8 @@ fn the_distance_from_the_truth_carries_its_error_and_so_does_a_selected_body() {
     {
         assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
     }
-    let chaotic = Report { generation: 1, standing: Standing::Chaotic { after: 2.1 }, ..Report::default() };
+    let chaotic =
+        Report { generation: 1, standing: Standing::Parted { after: 2.1, chaotic: true }, ..Report::default() };
     let frame = Arc::make_mut(&mut harness.state_mut().frame);
     frame.companions.truth = Some(Companion::fixed(chaotic, []));
     harness.run();

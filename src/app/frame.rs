@@ -1,6 +1,7 @@
 //! What the simulation thread publishes: one immutable picture of everything that the window shows.
 
 use super::companion::Companions;
+use super::laboratory::Lab;
 use super::plot_data::Plots;
 use super::trace::Trace;
 use crate::engine::{DVec2, Id, Method, StepReport, World};
@@ -66,6 +67,8 @@ pub struct Frame {
     pub touched: Arc<Vec<Id>>,
     /// The truth and the rival, where they are wanted.
     pub companions: Companions,
+    /// What the lab has measured.
+    pub lab: Lab,
     /// How the scene's trial stands, if it has one.
     pub trial: Option<Arc<Verdict>>,
 }

@@ -30,6 +30,8 @@ pub enum Action {
     Tool(Tool),
     /// Shows or hides something.
     Toggle(Shown),
+    /// Opens the lab's panel.
+    Lab,
     /// Light or dark.
     ToggleTheme,
     Palette,
@@ -211,6 +213,12 @@ pub const ENTRIES: &[Entry] = &[
         &[shift("B")],
         "A | B",
         "The same scene and the same inputs under another method, side by side.",
+    ),
+    entry(
+        Action::Lab,
+        &[ctrl("L")],
+        "Lab",
+        "Error over cost of every method on this scene, measured in the background.",
     ),
     entry(Action::ToggleTheme, &[shift("D")], "Theme", "Changes between dark and light."),
     entry(Action::Palette, &[ctrl("K")], "Find an action", "Lists every action with its shortcut; type to find one."),

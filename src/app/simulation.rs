@@ -5,6 +5,7 @@ use super::companion::{Beginning, Input, Links, Report, Standing, Waker};
 use super::edit;
 use super::frame::{Frame, SceneInfo, Speed};
 use super::history::{History, State};
+use super::laboratory::{Job, LabOrder, Laboratory};
 use super::plot_data::{Plots, Sample};
 use super::trace::Trace;
 use super::{pick, setting};
@@ -50,6 +51,8 @@ pub(super) struct Simulation {
     published: Option<Arc<Frame>>,
     /// The worlds that follow this one.
     links: Links,
+    laboratory: Laboratory,
+    waker: Waker,
     /// Nothing but the method was changed since the scene was opened.
     untouched: bool,
     trial: Option<Trial>,
@@ -79,7 +82,9 @@ impl Simulation {
             touched: Arc::default(),
             opened: 1,
             published: None,
-            links: Links::new(waker),
+            links: Links::default(),
+            laboratory: Laboratory::default(),
+            waker,
             untouched: true,
             trial: Trial::of(&start),
             start,
@@ -133,6 +138,7 @@ impl Simulation {
             redo: self.history.redo_name().map(str::to_owned),
             touched: self.touched.clone(),
             companions: self.links.companions(),
+            lab: self.laboratory.lab(),
             trial: self.trial.as_ref().map(|trial| trial.verdict().clone()),
         }
     }
@@ -248,15 +254,16 @@ impl Simulation {
             }
             Command::Truth(on) => {
                 let beginning = self.beginning();
-                self.links.set_truth(on, beginning).map_err(|error| no_thread("truth", &error))?;
+                self.links.set_truth(on, beginning, &self.waker).map_err(|error| no_thread("truth", &error))?;
             }
             Command::Rival(method) => {
                 if let Some(method) = &method {
                     method.validate().map_err(text)?;
                 }
                 let beginning = self.beginning();
-                self.links.set_rival(method, beginning).map_err(|error| no_thread("rival", &error))?;
+                self.links.set_rival(method, beginning, &self.waker).map_err(|error| no_thread("rival", &error))?;
             }
+            Command::Lab(order) => self.order(order)?,
             Command::Grab { body, at } => self.grab(body, at).map_err(text)?,
             Command::MoveGrip(target) => {
                 if let Some(grip) = self.world.grip().copied() {
@@ -285,6 +292,24 @@ impl Simulation {
             Command::Quit => self.running = false,
         }
         Ok(())
+    }
+
+    fn order(&mut self, order: LabOrder) -> Result<(), String> {
+        match order {
+            LabOrder::Start => {
+                let mut touched = (!self.untouched).then(|| self.world.clone());
+                // A hand is no part of a scene.
+                touched.iter_mut().for_each(|world| world.set_grip(None).expect("letting go is always possible"));
+                let job = Job { setup: self.start.clone(), touched, method: *self.stepper.method() };
+                self.laboratory.start(job, &self.waker).map_err(|error| no_thread("lab", &error))
+            }
+            LabOrder::Stop => {
+                self.laboratory.stop();
+                Ok(())
+            }
+            LabOrder::Resume => self.laboratory.resume(&self.waker).map_err(|error| no_thread("lab", &error)),
+            LabOrder::Export(path) => self.laboratory.export(&path).map_err(|error| error.to_string()),
+        }
     }
 
     /// Tells the companions what was done to the world.

@@ -7,7 +7,7 @@ use super::colour::Colour;
 use super::marks::Ends;
 use super::picture::{DiscStyle, Picture, Scene};
 use crate::app::companion::Offsets;
-use crate::app::drawn::{self, LEAST_DOT, ROD_WIDTH};
+use crate::app::drawn::{self, ROD_WIDTH};
 use crate::engine::constraint::WORLD;
 use crate::engine::{DVec2, Kind, Motion};
 
@@ -75,6 +75,6 @@ impl Ghost<'_> {
         let turns = !self.offsets.turn.is_empty() && radius > 4.0;
         let style =
             DiscStyle { fill: colour, stroke: colour, stroke_width: 1.0, heading: self.angle(body).filter(|_| turns) };
-        picture.disc(&self.scene.view, at, radius.max(LEAST_DOT + 1.0), style);
+        picture.disc(&self.scene.view, at, radius, style);
     }
 }

@@ -26,7 +26,7 @@ pub use generator::Generator;
 pub use pass::{Limit, Pass};
 pub use read::{LARGEST_FILE, open, parse, read_file};
 pub(crate) use save::behind_links;
-pub use save::{save, to_ron};
+pub use save::{save, save_text, to_ron};
 pub use shipped::{Shipped, every_scene, find_shipped, hard_scenes, sections, shipped, truth_scenes};
 
 use crate::engine::{DVec2, Id, Method, World};

@@ -43,7 +43,9 @@ pub fn status(frame: &Frame, companion: &Companion, colours: &theme::Colours) ->
     let late = behind(frame, &report);
     let (text, colour) = match (&report.standing, &report.gap) {
         (Standing::Waiting, _) => ("…".into(), colours.weak),
-        (Standing::Chaotic { after }, _) => (format!("none: chaotic after {after:.2} s"), colours.warning),
+        (Standing::Parted { after, chaotic }, _) => {
+            (format!("none: {} after {after:.2} s", why_parted(*chaotic)), colours.warning)
+        }
         (Standing::Lost(_), _) => ("given up".into(), colours.warning),
         (_, Some(gap)) => (gap_text(gap, report.length) + &late, colours.text),
         (_, None) => ("no sample at this rate".into(), colours.weak),
@@ -59,6 +61,10 @@ pub fn status(frame: &Frame, companion: &Companion, colours: &theme::Colours) ->
     (text, colour, tooltip)
 }
 
+fn why_parted(chaotic: bool) -> &'static str {
+    if chaotic { "chaotic" } else { "not converged" }
+}
+
 /// What a companion is worth, in a sentence or two.
 fn standing(report: &Report) -> String {
     match &report.standing {
@@ -69,9 +75,10 @@ fn standing(report: &Report) -> String {
              length.",
             power(*to)
         ),
-        Standing::Chaotic { after } => format!(
-            "No reference: chaotic after {after:.2} s. There a fine and a coarser run have parted by a thousandth of the length, \
-             so neither is the truth. Restart for a new one."
+        Standing::Parted { after, chaotic } => format!(
+            "No reference: {} after {after:.2} s. There a fine and a coarser run have parted by a thousandth of the length, so \
+             neither is the truth. Restart for a new one.",
+            why_parted(*chaotic)
         ),
         Standing::Following => "The same scene and the same inputs under the other method.".into(),
         Standing::Lost(why) => format!("Given up at {:.2} s: {why}.", report.time),

@@ -12,6 +12,7 @@ pub mod format;
 mod help;
 mod icon;
 mod inspector;
+pub mod lab;
 mod overlay;
 mod palette;
 mod plots;

@@ -2,9 +2,9 @@
 
 use super::format::{round_si, si};
 use super::state::{PlotTab, State};
-use super::theme;
+use super::{lab, theme};
 use crate::app::plot_data::{PLOT_SECONDS, Sample};
-use crate::app::{Companion, Frame};
+use crate::app::{Command, Companion, Frame};
 use crate::engine::Stage;
 use crate::measure::Measures;
 use crate::render::legend::{SteadyRange, step_down, step_up};
@@ -116,7 +116,7 @@ fn merge<const N: usize>(old: &mut [f64; N], new: &[f64; N], fold: Fold, count: 
 
 impl Plots {
     /// The tabs and the plot that is chosen.
-    pub fn show(&mut self, ui: &mut Ui, frame: &Frame, state: &mut State) {
+    pub fn show(&mut self, ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Command>) {
         if self.opened != frame.scene.opened {
             *self = Plots { opened: frame.scene.opened, ..Plots::default() };
         }
@@ -129,6 +129,7 @@ impl Plots {
                 PlotTab::LocalError => local_error_legend(ui, frame),
                 PlotTab::Distance => distance_legend(ui, frame),
                 PlotTab::StepTime => step_legend(ui, frame),
+                PlotTab::Lab => {}
             }
         });
         match state.plot {
@@ -137,6 +138,7 @@ impl Plots {
             PlotTab::LocalError => self.local_error(ui, frame),
             PlotTab::Distance => self.distance(ui, frame),
             PlotTab::StepTime => self.step(ui, frame),
+            PlotTab::Lab => lab::show(ui, frame, state, commands),
         }
     }
 

@@ -5,7 +5,7 @@ use super::finder::Found;
 use super::overlay::Ranges;
 use super::plots::Plots;
 use super::settings::Defaults;
-use super::state::{Field, State};
+use super::state::{Field, PlotTab, State};
 use super::theme::{self, Theme};
 use super::{
     canvas, companions, fault, finder, help, inspector, palette, scenes, settings, status, transport, view, widgets,
@@ -196,14 +196,14 @@ impl Shell {
             });
         });
         if self.state.plots && ui.available_width() >= NARROWEST_PLOT {
-            Panel::bottom("plots")
-                .resizable(true)
-                .default_size(176.0)
-                .size_range(112.0..=480.0)
-                .frame(plate(12, 8))
-                .show(ui, |ui| {
-                    self.plots.show(ui, frame, &mut self.state);
-                });
+            // The lab's diagram wants more room than a curve.
+            let (id, height) = if self.state.plot == PlotTab::Lab { ("lab", 320.0) } else { ("plots", 176.0) };
+            Panel::bottom(id).resizable(true).default_size(height).size_range(112.0..=480.0).frame(plate(12, 8)).show(
+                ui,
+                |ui| {
+                    self.plots.show(ui, frame, &mut self.state, commands);
+                },
+            );
         }
     }
 

@@ -1,5 +1,6 @@
 //! What a user sets in the window itself: theme, panels, what is drawn, what is typed. None of it touches the simulation.
 
+use super::lab::Wanted;
 use super::theme::Theme;
 use crate::app::keys::Shown;
 use crate::engine::Method;
@@ -45,16 +46,17 @@ pub enum PlotTab {
     LocalError,
     Distance,
     StepTime,
+    Lab,
 }
 
 impl PlotTab {
     /// All of them, in the order of their tabs.
-    pub const ALL: [PlotTab; 5] =
-        [PlotTab::Energy, PlotTab::Violation, PlotTab::LocalError, PlotTab::Distance, PlotTab::StepTime];
+    pub const ALL: [PlotTab; 6] =
+        [PlotTab::Energy, PlotTab::Violation, PlotTab::LocalError, PlotTab::Distance, PlotTab::StepTime, PlotTab::Lab];
 
     /// The name shown to a user.
     pub fn name(self) -> &'static str {
-        ["Energy", "Error", "Local error", "Distance", "Step time"][self as usize]
+        ["Energy", "Error", "Local error", "Distance", "Step time", "Lab"][self as usize]
     }
 
     /// What it shows, for its tooltip.
@@ -65,6 +67,7 @@ impl PlotTab {
             "Estimated error of each step, in parts of an island's size, over simulated time.",
             "Distance of the bodies from the truth (Ghost) and from the other method (A | B) [m] over simulated time.",
             "Time of a step [µs], split by stage, over simulated time.",
+            "Error over cost of every method on this scene, measured in the background. [Ctrl-L]",
         ][self as usize]
     }
 }
@@ -104,6 +107,8 @@ pub struct State {
     pub rival_method: Option<Method>,
     /// How the trials of scenes went in this session, by their names.
     pub verdicts: BTreeMap<String, Arc<Verdict>>,
+    /// What the lab is to give advice for.
+    pub lab: Wanted,
     pub scene_filter: String,
     /// Opening of the scene that was last brought into sight in the list.
     pub listed: Option<u64>,
@@ -125,6 +130,7 @@ impl Default for State {
             rival: false,
             rival_method: None,
             verdicts: BTreeMap::new(),
+            lab: Wanted::default(),
             scene_filter: String::new(),
             listed: None,
             save_path: "my scene.ron".into(),

@@ -95,23 +95,19 @@ impl Drop for Link {
 }
 
 /// All companions of a simulation.
+#[derive(Default)]
 pub(in crate::app) struct Links {
     truth: Option<Link>,
     rival: Option<(Link, Method)>,
-    waker: Waker,
 }
 
 impl Links {
-    pub fn new(waker: Waker) -> Links {
-        Links { truth: None, rival: None, waker }
-    }
-
     /// Starts or ends the truth.
-    pub fn set_truth(&mut self, on: bool, beginning: Beginning) -> std::io::Result<()> {
+    pub fn set_truth(&mut self, on: bool, beginning: Beginning, waker: &Waker) -> std::io::Result<()> {
         if !on {
             self.truth = None;
         } else if self.truth.is_none() {
-            let mut link = Link::start(Purpose::Truth, &self.waker)?;
+            let mut link = Link::start(Purpose::Truth, waker)?;
             link.begin(beginning);
             self.truth = Some(link);
         }
@@ -119,7 +115,7 @@ impl Links {
     }
 
     /// Starts or ends the rival, or gives it another method.
-    pub fn set_rival(&mut self, method: Option<Method>, beginning: Beginning) -> std::io::Result<()> {
+    pub fn set_rival(&mut self, method: Option<Method>, beginning: Beginning, waker: &Waker) -> std::io::Result<()> {
         match (method, &mut self.rival) {
             (None, rival) => *rival = None,
             (Some(method), Some((link, now))) => {
@@ -129,7 +125,7 @@ impl Links {
                 }
             }
             (Some(method), rival) => {
-                let mut link = Link::start(Purpose::Rival(method), &self.waker)?;
+                let mut link = Link::start(Purpose::Rival(method), waker)?;
                 link.begin(beginning);
                 *rival = Some((link, method));
             }
@@ -194,8 +190,8 @@ mod tests {
         let start = Arc::new(crate::scene::open("pendulum").expect("a shipped scene"));
         let (world, hz) = (start.world.clone(), start.method.hz);
         let beginning = Beginning { world, start, scene: Arc::default(), untouched: true, hz };
-        let mut links = Links::new(waker);
-        links.set_truth(true, beginning.clone()).expect("room for a thread");
+        let mut links = Links::default();
+        links.set_truth(true, beginning.clone(), &waker).expect("room for a thread");
         let world = beginning.world.clone();
         (0..2 * MOST_BEHIND).for_each(|_| links.step(&world));
         let companion = links.companions().truth.expect("it was started");

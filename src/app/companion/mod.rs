@@ -21,7 +21,7 @@ mod thread;
 
 pub use follower::Follower;
 pub use input::Input;
-pub use reference::{CHAOTIC, reference_methods};
+pub use reference::{PARTED, reference_methods};
 pub use report::{Companion, Companions, Report, Standing};
 pub use separation::{Gap, Offsets, Parting, VISIBLE};
 
@@ -29,6 +29,7 @@ pub(super) use link::{Links, Waker};
 
 use super::frame::SceneInfo;
 use crate::engine::{DVec2, World};
+use crate::lab::scene_length;
 use crate::scene::Setup;
 use std::sync::Arc;
 
@@ -73,17 +74,8 @@ pub struct Beginning {
 }
 
 impl Beginning {
-    /// The length by which distances are divided [m]: the scene's own, or else the larger side of the box around all bodies.
+    /// The length by which distances are divided [m]: the scene's own, or else that of everything in it.
     pub fn length(&self) -> f64 {
-        if let Some(truth) = self.start.truth {
-            return truth.length;
-        }
-        let bodies = &self.world.bodies();
-        let reach = |i: usize| DVec2::splat(bodies.radius[i]);
-        let low = (0..bodies.len()).fold(DVec2::INFINITY, |low, i| low.min(bodies.position[i] - reach(i)));
-        let high = (0..bodies.len()).fold(DVec2::NEG_INFINITY, |high, i| high.max(bodies.position[i] + reach(i)));
-        let length = (high - low).max_element();
-        // One point, or none, has no size: a metre then.
-        if length.is_finite() && length > 0.0 { length } else { 1.0 }
+        self.start.truth.map_or_else(|| scene_length(&self.world), |truth| truth.length)
     }
 }

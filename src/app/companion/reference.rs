@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// Distance of the two runs, in parts of the scene's length, from which there is no reference any more. Where neighbouring
 /// motions part as fast as they do then, neither run says anything about the next second.
-pub const CHAOTIC: f64 = 1e-3;
+pub const PARTED: f64 = 1e-3;
 
 /// Substeps of what can touch in the finer run, at least; the coarser one takes half as many. Beyond it the solver's own
 /// iterations are what is left of the error.
@@ -54,7 +54,7 @@ pub(super) struct Reference {
 enum Source {
     Known(Trajectory),
     Computed(Box<Pair>),
-    Chaotic { after: f64 },
+    Parted { after: f64, chaotic: bool },
 }
 
 /// A run and a coarser one.
@@ -63,6 +63,8 @@ struct Pair {
     coarse: Follower,
     /// Largest root mean square of their distance so far [m].
     apart: f64,
+    /// Some step went through substeps, whose error nothing bounds.
+    by_substeps: bool,
 }
 
 impl Reference {
@@ -104,7 +106,7 @@ impl Reference {
         }
         match &mut self.source {
             Source::Computed(pair) => pair.apply(input),
-            Source::Known(_) | Source::Chaotic { .. } => Ok(()),
+            Source::Known(_) | Source::Parted { .. } => Ok(()),
         }
     }
 
@@ -116,7 +118,7 @@ impl Reference {
         match &mut self.source {
             Source::Known(known) if is_over(known) => self.compute(goes_on)?,
             Source::Computed(pair) => pair.step()?,
-            Source::Known(_) | Source::Chaotic { .. } => {}
+            Source::Known(_) | Source::Parted { .. } => {}
         }
         self.judge();
         Ok(self.compare(here))
@@ -147,9 +149,9 @@ impl Reference {
     /// Gives the reference up where the two runs have parted.
     fn judge(&mut self) {
         if let Source::Computed(pair) = &self.source
-            && !(pair.apart <= CHAOTIC * self.length)
+            && !(pair.apart <= PARTED * self.length)
         {
-            self.source = Source::Chaotic { after: self.time };
+            self.source = Source::Parted { after: self.time, chaotic: !pair.by_substeps };
         }
     }
 
@@ -165,7 +167,7 @@ impl Reference {
                 (there, known.agreement * known.length, &self.beginning.world.bodies().id)
             }
             Source::Computed(pair) => (Pose::of(pair.fine.world()), pair.apart, &pair.fine.world().bodies().id),
-            Source::Chaotic { .. } => return None,
+            Source::Parted { .. } => return None,
         };
         self.separation.compare(ids, here, &there, self.length, uncertainty);
         self.separation.gap
@@ -176,9 +178,9 @@ impl Reference {
         let standing = match &self.source {
             Source::Known(known) => Standing::Exact { error: known.agreement },
             Source::Computed(pair) => Standing::Converged { to: pair.apart / self.length },
-            Source::Chaotic { after } => Standing::Chaotic { after: *after },
+            Source::Parted { after, chaotic } => Standing::Parted { after: *after, chaotic: *chaotic },
         };
-        let ended = matches!(standing, Standing::Chaotic { .. });
+        let ended = matches!(standing, Standing::Parted { .. });
         Report {
             generation,
             tick: self.tick,
@@ -203,7 +205,7 @@ impl Pair {
         };
         let own = Method { hz: beginning.hz, ..beginning.start.method };
         let [fine, coarse] = reference_methods(&own).map(begin);
-        Ok(Pair { fine: fine?, coarse: coarse?, apart: 0.0 })
+        Ok(Pair { fine: fine?, coarse: coarse?, apart: 0.0, by_substeps: false })
     }
 
     fn apply(&mut self, input: &Input) -> Result<(), String> {
@@ -214,6 +216,7 @@ impl Pair {
     fn step(&mut self) -> Result<(), String> {
         self.fine.step()?;
         self.coarse.step()?;
+        self.by_substeps |= self.fine.report().substeps > 0;
         let [fine, coarse] = [&self.fine, &self.coarse].map(|run| &run.world().bodies().position);
         let squares: f64 = fine.iter().zip(coarse).map(|(a, b)| (*a - *b).length_squared()).sum();
         self.apart = self.apart.max((squares / fine.len().max(1) as f64).sqrt());

@@ -19,8 +19,9 @@ pub enum Standing {
     Exact { error: f64 },
     /// Two runs of different fineness agree to this part of the scene's length.
     Converged { to: f64 },
-    /// The two runs parted at this time [s]: from then on there is no reference.
-    Chaotic { after: f64 },
+    /// The two runs parted at this time [s]: from then on there is no reference. `chaotic` if both were carried to their
+    /// accuracy until then, so that only neighbouring motions parting can be why; otherwise the runs may have been too coarse.
+    Parted { after: f64, chaotic: bool },
     /// A world that is only compared.
     Following,
     /// It ended, and why.

@@ -4,6 +4,7 @@ use super::report::{Report, Standing};
 use super::separation::{Gap, Separation};
 use super::{Beginning, Follower, Input, Pose};
 use crate::app::frame::{Frame, SceneInfo, Speed};
+use crate::app::laboratory::Lab;
 use crate::app::plot_data::{Plots, Sample};
 use crate::app::trace::Trace;
 use crate::engine::Method;
@@ -111,6 +112,7 @@ impl Rival {
             redo: None,
             touched: Arc::default(),
             companions: super::Companions::default(),
+            lab: Lab::default(),
             trial: None,
         }
     }
