@@ -7,8 +7,8 @@
 //! - [`lab`]: speed against error: sweeps, references, fronts, reports
 //! - [`trial`]: the pass of a hard case, evaluated while it runs
 //! - [`measure`]: energy, momentum, violation, penetration, error against a truth
-//! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
 //! - [`scene`]: the file format, its errors, its generators
+//! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
 //! - [`engine`]: the physics; knows no window, file or clock
 
 #[cfg(feature = "desktop")]

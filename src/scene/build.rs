@@ -7,6 +7,7 @@ use super::generator::check_point;
 use super::names::Names;
 use super::pass::Pass;
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, Shape, Spin, Wall, World};
+use crate::truth::TruthError;
 
 /// The most bodies that a scene may have, those of its generators included. Beyond it a step takes seconds.
 pub const MOST_BODIES: u64 = 1_000_000;
@@ -39,6 +40,7 @@ impl Document {
         for (index, entry) in self.walls.iter().enumerate() {
             add_wall(&mut world, entry).map_err(|fault| fault.inside("walls", index))?;
         }
+        let truth = self.checked_truth(&world)?;
         Ok(Setup {
             name: name.to_owned(),
             title: if self.title.is_empty() { name.to_owned() } else { self.title.clone() },
@@ -47,7 +49,7 @@ impl Document {
             world,
             method: self.settings.method(),
             view: self.checked_view()?,
-            truth: self.checked_truth()?,
+            truth,
             pass: self.checked_pass()?,
         })
     }
@@ -101,7 +103,7 @@ impl Document {
         Ok(Some(pass.clone()))
     }
 
-    fn checked_truth(&self) -> Result<Option<Truth>, Fault> {
+    fn checked_truth(&self, world: &World) -> Result<Option<Truth>, Fault> {
         let Some(truth) = self.truth else { return Ok(None) };
         let in_truth = |fault: Fault| fault.within("truth");
         if !(truth.seconds >= 1.0 / 60.0 && truth.seconds <= 3600.0) {
@@ -109,6 +111,12 @@ impl Document {
         }
         if !(truth.length >= 1e-9 && truth.length <= 1e9) {
             return Err(in_truth(Fault::value("length", truth.length, "a length between 1e-9 and 1e9 m")));
+        }
+        if let Some(form) = truth.form
+            && let Err(TruthError::Misfit { what, holds, .. }) = form.trajectory(world, truth.seconds, truth.length)
+        {
+            let problem = Problem::new(what, holds, "Change the scene, name another form, or remove `form`.");
+            return Err(in_truth(Fault::new(Some("form"), problem)));
         }
         Ok(self.truth)
     }

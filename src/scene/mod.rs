@@ -9,6 +9,7 @@ pub mod capture;
 pub mod document;
 pub mod error;
 pub mod generator;
+mod known;
 mod locate;
 mod names;
 mod nearest;

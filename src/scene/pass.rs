@@ -20,11 +20,11 @@ pub struct Pass {
 pub enum Limit {
     /// Worst violation of a rod, a taut rope or a pin, all through [m].
     Gap(f64),
-    /// Worst change of the total energy, in parts of the largest kinetic energy so far.
+    /// Worst change of the total energy, in parts of what the motion has moved of it ([`crate::measure::EnergyDrift`]).
     Energy(f64),
     /// Worst change of the angular momentum about the origin, in parts of what it was at the start.
     Spin(f64),
-    /// Root mean square distance from the known motion over all bodies and samples, in parts of the scene's length.
+    /// Root mean square distance from the known motion over all bodies and known samples, in parts of the scene's length.
     Truth(f64),
     /// Speed of the fastest body, all through [m/s].
     Speed(f64),

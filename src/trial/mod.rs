@@ -1,9 +1,9 @@
 //! Trials: the pass of a scene, evaluated while it runs. The window's badges and the tests ask the same evaluator.
 
-use crate::engine::{DVec2, StepReport, World};
-use crate::measure::Measures;
+use crate::engine::{StepReport, World};
+use crate::measure::{EnergyDrift, ErrorSum, Measures};
 use crate::scene::{Limit, Pass, Setup};
-use crate::truth::{self, Trajectory};
+use crate::truth::Trajectory;
 use std::sync::Arc;
 
 /// How a trial stands.
@@ -60,16 +60,14 @@ pub struct Verdict {
 pub struct Trial {
     verdict: Arc<Verdict>,
     start: Measures,
-    /// Largest kinetic energy [J] and largest change of the total energy [J] so far.
-    liveliest: f64,
+    energy: EnergyDrift,
+    /// Largest change of the total energy so far [J].
     drift: f64,
     truth: Option<Arc<Trajectory>>,
-    /// Sum of the mean square distances from the truth [m²], and of how many samples.
-    squares: f64,
-    samples: usize,
+    distance: ErrorSum,
 }
 
-/// A sample of the truth belongs to a step that ends within this time of it [s].
+/// A trial is over when a step ends less than this before its time [s].
 const SAME_TIME: f64 = 1e-9;
 
 impl Trial {
@@ -81,12 +79,11 @@ impl Trial {
         let lines = limits.into_iter().map(|limit| Line { limit, value: 0.0 }).collect();
         let mut trial = Trial {
             verdict: Arc::new(Verdict { state: State::Running, time: setup.world.time(), seconds, lines }),
-            liveliest: start.kinetic,
+            energy: EnergyDrift::new(&start),
             start,
             drift: 0.0,
-            truth: needs_truth.then(|| truth::stored(&setup.name)).flatten().map(Arc::new),
-            squares: 0.0,
-            samples: 0,
+            truth: needs_truth.then(|| setup.known_motion()).flatten().map(Arc::new),
+            distance: ErrorSum::default(),
         };
         trial.compare(&setup.world);
         Some(trial)
@@ -104,8 +101,8 @@ impl Trial {
         if is_over || !matches!(self.verdict.state, State::Running | State::Failed) {
             return;
         }
-        self.liveliest = self.liveliest.max(measures.kinetic);
-        self.drift = self.drift.max((measures.total_energy() - self.start.total_energy()).abs());
+        let drift = self.energy.see(measures);
+        self.drift = greater(self.drift, drift.abs() * self.energy.scale());
         self.compare(world);
         let mut verdict = (*self.verdict).clone();
         verdict.time = world.time();
@@ -140,13 +137,13 @@ impl Trial {
         let fastest = || world.bodies().velocity.iter().fold(0.0, |most, v| greater(most, v.length()));
         match line.limit {
             Limit::Gap(_) => greater(line.value, measures.violation_max),
-            Limit::Energy(_) => ratio(self.drift, self.liveliest),
+            Limit::Energy(_) => ratio(self.drift, self.energy.scale()),
             Limit::Spin(_) => {
                 let change = (measures.angular_momentum - self.start.angular_momentum).abs();
                 greater(line.value, ratio(change, self.start.angular_momentum.abs()))
             }
             Limit::Truth(_) => match &self.truth {
-                Some(truth) => (self.squares / self.samples.max(1) as f64).sqrt() / truth.length,
+                Some(truth) => self.distance.rms() / truth.length,
                 None => f64::NAN,
             },
             Limit::Speed(_) => greater(line.value, fastest()),
@@ -162,14 +159,9 @@ impl Trial {
     /// Adds a sample of the distance from the truth, where there is one at this time.
     fn compare(&mut self, world: &World) {
         let Some(truth) = &self.truth else { return };
-        let k = truth.times.partition_point(|time| *time < world.time() - SAME_TIME);
-        let Some(sample) = truth.positions.get(k).filter(|_| truth.times[k] <= world.time() + SAME_TIME) else {
-            return;
-        };
-        let distance = |(a, b): (&DVec2, &DVec2)| (*a - *b).length_squared();
-        let squares: f64 = sample.iter().zip(&world.bodies().position).map(distance).sum();
-        self.squares += squares / sample.len().max(1) as f64;
-        self.samples += 1;
+        if let Some(sample) = truth.sample_at(world.time()) {
+            self.distance.add(sample, &world.bodies().position);
+        }
     }
 }
 

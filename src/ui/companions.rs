@@ -9,6 +9,7 @@ use crate::app::companion::{Gap, Report, Standing};
 use crate::app::keys::Shown;
 use crate::app::{Action, Companion, Frame};
 use crate::engine::{Integrator, Method, Solver};
+use crate::measure::Uncertain;
 use egui::{Color32, Ui};
 
 /// How many steps a companion may be behind without a word.
@@ -96,17 +97,17 @@ pub fn truth_note(frame: &Frame) -> String {
     }
 }
 
-/// A body's position and what it may be off by, where the truth is known: "Body 3 at (1.302, −0.441) ± 0.002 m".
+/// A body's position and what it may be off by, where the truth is known: "x 1.302 ± 0.002 m, y −441 ± 2 mm".
 pub fn position(frame: &Frame, body: usize) -> Option<String> {
     let report = frame.companions.truth.as_ref()?.report();
     let offsets = &report.offsets;
     if *offsets.bodies != frame.world.bodies().id {
         return None;
     }
-    let error = offsets.shift[body].length() + report.gap.as_ref().map_or(0.0, |gap| gap.uncertainty);
+    let error = Some(offsets.shift[body].length() + report.gap.as_ref().map_or(0.0, |gap| gap.uncertainty));
     let at = frame.world.bodies().position[body];
-    let parts = [at.x, at.y].map(|value| format::with_error_in(value, error));
-    Some(format!("({}, {}) ± {} m", parts[0], parts[1], format::one_digit(error)))
+    let [x, y] = [at.x, at.y].map(|value| Uncertain { value, error }.shown("m"));
+    Some(format!("x {x}, y {y}"))
 }
 
 const ACCURACY: Number = Number {

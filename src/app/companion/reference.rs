@@ -4,7 +4,7 @@ use super::report::{Report, Standing};
 use super::separation::{Gap, Separation};
 use super::{Beginning, Follower, Input, Pose};
 use crate::engine::{Id, Integrator, LinearSolver, Method, Solver, World};
-use crate::truth::{self, Trajectory};
+use crate::truth::Trajectory;
 use std::sync::Arc;
 
 /// Distance of the two runs, in parts of the scene's length, from which there is no reference any more. Where neighbouring
@@ -15,7 +15,7 @@ pub const PARTED: f64 = 1e-3;
 /// iterations are what is left of the error.
 const SUBSTEPS: u32 = 32;
 
-/// A sample of a known motion belongs to a step that ends within this time of it [s].
+/// A known motion is over when a step ends later than its last sample by more than this [s].
 const SAME_TIME: f64 = 1e-9;
 
 /// The most accurate method for a scene that is stepped with `method`, and one that is coarser.
@@ -71,9 +71,7 @@ impl Reference {
     /// # Errors
     /// In words, if no run can be begun.
     pub fn new(beginning: Box<Beginning>) -> Result<Reference, String> {
-        let known = beginning.untouched.then(|| truth::stored(&beginning.start.name)).flatten();
-        let count = beginning.world.bodies().len();
-        let known = known.filter(|known| known.positions.first().is_some_and(|first| first.len() == count));
+        let known = beginning.untouched.then(|| beginning.start.known_motion()).flatten();
         let source = match known {
             Some(known) => Source::Known(known),
             None => Source::Computed(Box::new(Pair::new(&beginning)?)),
@@ -158,12 +156,7 @@ impl Reference {
     fn compare(&mut self, here: &Pose) -> Option<Gap> {
         let (there, uncertainty, ids): (Pose, f64, &[Id]) = match &self.source {
             Source::Known(known) => {
-                let k = known.times.partition_point(|time| *time < here.time - SAME_TIME);
-                let time = *known.times.get(k)?;
-                if time > here.time + SAME_TIME {
-                    return None;
-                }
-                let there = Pose { position: known.positions[k].clone(), ..Pose::default() };
+                let there = Pose { position: known.sample_at(here.time)?.to_vec(), ..Pose::default() };
                 (there, known.agreement * known.length, &self.beginning.world.bodies().id)
             }
             Source::Computed(pair) => (Pose::of(pair.fine.world()), pair.apart, &pair.fine.world().bodies().id),

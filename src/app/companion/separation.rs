@@ -2,6 +2,7 @@
 
 use super::Pose;
 use crate::engine::{DVec2, Id};
+use crate::measure::{Distance, ErrorSum};
 use std::sync::Arc;
 
 /// Distance of a body from its double, in parts of the scene's length, from which the two can be told apart on a screen.
@@ -51,35 +52,28 @@ pub(super) struct Separation {
     pub parting: Option<Parting>,
     pub offsets: Arc<Offsets>,
     bodies: Arc<Vec<Id>>,
-    /// Sum over all samples of the mean square distance [m²], and their number.
-    squares: f64,
-    samples: usize,
+    sum: ErrorSum,
 }
 
 impl Separation {
     /// Root mean square over all bodies and all samples so far [m].
     pub fn so_far(&self) -> f64 {
-        (self.squares / self.samples.max(1) as f64).sqrt()
+        self.sum.rms()
     }
 
     /// Takes note of where the simulation (`here`) and the other world (`there`) are; `length` [m] is the scene's, `uncertainty`
     /// [m] that of `there`. Nothing if they have not the same bodies.
     pub fn compare(&mut self, ids: &[Id], here: &Pose, there: &Pose, length: f64, uncertainty: f64) {
         let count = here.position.len();
-        if count == 0 || there.position.len() != count || ids.len() != count {
+        if ids.len() != count {
             return;
         }
+        let Some(Distance { rms, max }) = self.sum.add(&there.position, &here.position) else { return };
         let shift: Vec<DVec2> = there.position.iter().zip(&here.position).map(|(b, a)| *b - *a).collect();
-        let square = shift.iter().map(|shift| shift.length_squared()).sum::<f64>() / count as f64;
-        let (worst, max) = shift
-            .iter()
-            .map(|shift| shift.length())
-            .enumerate()
-            .fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
-        self.squares += square;
-        self.samples += 1;
-        self.gap = Some(Gap { time: here.time, rms: square.sqrt(), max, uncertainty });
+        self.gap = Some(Gap { time: here.time, rms, max, uncertainty });
         if self.parting.is_none() && max > VISIBLE * length {
+            let by_length = |a: &usize, b: &usize| shift[*a].length_squared().total_cmp(&shift[*b].length_squared());
+            let worst = (0..count).max_by(by_length).unwrap_or(0);
             let (body, here_at, there_at) = (ids[worst], here.position[worst], there.position[worst]);
             self.parting = Some(Parting { time: here.time, body, here: here_at, there: there_at });
         }

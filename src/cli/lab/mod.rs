@@ -76,8 +76,12 @@ pub struct LabArguments {
     /// Timed runs of a setting, 5 at least
     #[arg(long, default_value = "5", value_parser = numbers::runs)]
     runs: usize,
-    /// Write data, diagrams and the page about accuracy into this folder; in the sources that is docs
-    #[arg(long, value_name = "FOLDER", requires = "truth", conflicts_with_all = ["json", "csv", "svg", "resume", "seconds", "methods", "hz"])]
+    /// Write data, diagrams and the page about accuracy into this folder; in the sources that is docs. Goes with --truth
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        conflicts_with_all = ["scenes", "all", "json", "csv", "svg", "resume", "seconds", "methods", "hz"]
+    )]
     docs: Option<PathBuf>,
     /// With --docs: measure nothing, draw what the data in the folder give
     #[arg(long, requires = "docs")]

@@ -19,12 +19,12 @@ const BOTTOM: f64 = 440.0;
 const STYLE: &str = "\
 text{font:12px sans-serif;fill:#24292f}.title{font-size:15px;font-weight:600}.grid{stroke:#d0d7de;fill:none}\
 .axis{stroke:#57606a;fill:none}.front{stroke:#24292f;stroke-width:2;fill:none;stroke-linejoin:round}.ground{fill:#ffffff}\
-.c0{--c:#0072b2}.c1{--c:#d55e00}.c2{--c:#007a5a}.c3{--c:#b0568f}.c4{--c:#2a7fb8}.c5{--c:#8a6d00}.c6{--c:#57606a}\
-.f{fill:var(--c);stroke:var(--c)}.h{fill:none;stroke:var(--c);stroke-width:1.6}.off{opacity:.55}\
+.c0{color:#0072b2}.c1{color:#d55e00}.c2{color:#007a5a}.c3{color:#b0568f}.c4{color:#2a7fb8}.c5{color:#8a6d00}.c6{color:#57606a}\
+.f{fill:currentColor;stroke:currentColor}.h{fill:none;stroke:currentColor;stroke-width:1.6}.off{opacity:.55}\
 .ring{fill:none;stroke:#24292f;stroke-width:1.4}\
 @media(prefers-color-scheme:dark){text{fill:#e6edf3}.grid{stroke:#30363d}.axis{stroke:#8b949e}.front,.ring{stroke:#e6edf3}\
-.ground{fill:#0d1117}.c0{--c:#56b4e9}.c1{--c:#ff9d5c}.c2{--c:#3fcf9f}.c3{--c:#e6a3cc}.c4{--c:#8fd0ff}.c5{--c:#e5c34a}\
-.c6{--c:#a0a8b0}}";
+.ground{fill:#0d1117}.c0{color:#56b4e9}.c1{color:#ff9d5c}.c2{color:#3fcf9f}.c3{color:#e6a3cc}.c4{color:#8fd0ff}.c5{color:#e5c34a}\
+.c6{color:#a0a8b0}}";
 
 /// Error over cost, both logarithmic, with the front as a line. `title` is what is measured.
 pub fn svg(title: &str, points: &[Point]) -> String {
