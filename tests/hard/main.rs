@@ -3,6 +3,7 @@
 mod closed_forms;
 mod impacts;
 mod nets;
+mod passes;
 mod ropes;
 mod statics;
 mod turning;
