@@ -168,6 +168,12 @@ impl Turning {
 
     /// Moves the anchors to where their bodies are, and gives them the velocities that they have there.
     pub fn place(&mut self, nodes: &mut Nodes) {
+        self.place_positions(nodes);
+        self.place_velocities(nodes);
+    }
+
+    /// p = x + R(θ) r.
+    pub fn place_positions(&mut self, nodes: &mut Nodes) {
         let (rotors, arms) = (&mut self.rotors, &mut self.arms);
         for ((angle, cos), sin) in rotors.angle.iter().zip(&mut rotors.cos).zip(&mut rotors.sin) {
             (*sin, *cos) = libm::sincos(*angle);
@@ -178,7 +184,6 @@ impl Turning {
             (arms.x[i], arms.y[i]) = (cos * local.x - sin * local.y, sin * local.x + cos * local.y);
             (nodes.x[point], nodes.y[point]) = (nodes.x[node] + arms.x[i], nodes.y[node] + arms.y[i]);
         }
-        self.place_velocities(nodes);
     }
 
     /// ṗ = v + ω × e.
