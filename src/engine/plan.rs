@@ -21,7 +21,7 @@ const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
 const LOCAL: f64 = 0.03;
 /// The same for methods of order 2, whose errors add up more evenly.
-const LOCAL_SECOND: f64 = 0.018;
+const LOCAL_SECOND: f64 = 0.028;
 
 /// Accuracies down to which methods of order 2 cost least.
 const SECOND_ORDER: f64 = 6e-4;

@@ -43,6 +43,8 @@ pub(crate) struct Taylor {
     springs: SpringSeries,
     grip: GripSeries,
     turning: TurningSeries,
+    /// Of nodes, rods, rows and springs that there is room for.
+    sizes: [usize; 4],
     fx: Vec<f64>,
     fy: Vec<f64>,
     gx: Vec<f64>,
@@ -73,7 +75,12 @@ struct GripSeries {
 impl Taylor {
     /// Makes room for an island of `nodes`, `rods`, `rows` and `springs`.
     pub fn reserve(&mut self, system: &System) {
+        self.turning.reserve(system);
         let (nodes, rods) = (system.nodes.len(), system.rods.a.len());
+        let sizes = [nodes, rods, system.rhs.len(), system.springs.len()];
+        if std::mem::replace(&mut self.sizes, sizes) == sizes {
+            return;
+        }
         let room = |series: &mut Vec<Vec<f64>>, n: usize| {
             series.resize_with(HIGHEST_ORDER + 1, Vec::new);
             series.iter_mut().for_each(|values| values.resize(n, 0.0));
@@ -99,7 +106,6 @@ impl Taylor {
         self.grip.u.resize(HIGHEST_ORDER + 1, DVec2::ZERO);
         self.grip.square.resize(HIGHEST_ORDER + 1, 0.0);
         self.grip.inverse.resize(HIGHEST_ORDER + 1, 0.0);
-        self.turning.reserve(system);
     }
 
     /// Carries the island through `time` [s] with local errors of about `tolerance` [m].
@@ -279,15 +285,8 @@ impl Taylor {
         let n = rods.a.len();
         if k > 0 && n > 0 && !system.turns() {
             self.know_pulls(k);
-            let ends = rods.a.iter().zip(&rods.b);
-            for ((((a, b), gx), gy), _) in ends.zip(&self.gx).zip(&self.gy).zip(0..n) {
-                let (a, b) = (*a as usize, *b as usize);
-                let (wa, wb) = (system.nodes.w[a], system.nodes.w[b]);
-                self.fx[a] -= wa * gx;
-                self.fy[a] -= wa * gy;
-                self.fx[b] += wb * gx;
-                self.fy[b] += wb * gy;
-            }
+            rods.pairs.add_weighted(&system.nodes.w, &self.gx, &mut self.fx);
+            rods.pairs.add_weighted(&system.nodes.w, &self.gy, &mut self.fy);
         }
         // −½ N (N−1) Σ_{0<j<N} d_j·d_{N−j} − d₀·(a_b − a_a)
         let order = k + 2;
@@ -338,8 +337,8 @@ impl Taylor {
 
     /// d_k of the rods.
     fn take_differences(&mut self, system: &System, k: usize) {
-        differences(&system.rods.a, &system.rods.b, &self.x[k], &mut self.dx[k]);
-        differences(&system.rods.a, &system.rods.b, &self.y[k], &mut self.dy[k]);
+        system.rods.pairs.differences(&self.x[k], &mut self.dx[k]);
+        system.rods.pairs.differences(&self.y[k], &mut self.dy[k]);
     }
 
     /// Adds coefficient k of the mouse's force, times the scale squared.
@@ -417,8 +416,8 @@ impl Taylor {
 
 impl SpringSeries {
     fn take_differences(&mut self, system: &System, x: &[Vec<f64>], y: &[Vec<f64>], k: usize) {
-        differences(&system.springs.a, &system.springs.b, &x[k], &mut self.dx[k]);
-        differences(&system.springs.a, &system.springs.b, &y[k], &mut self.dy[k]);
+        system.springs.pairs.differences(&x[k], &mut self.dx[k]);
+        system.springs.pairs.differences(&y[k], &mut self.dy[k]);
     }
 
     /// Adds coefficient k of the springs' forces, times the scale squared.
@@ -449,10 +448,7 @@ impl SpringSeries {
             for j in 0..=k {
                 add_product(&mut self.sum, &self.factor[j], &d[k - j]);
             }
-            for ((a, b), force) in springs.a.iter().zip(&springs.b).zip(&self.sum) {
-                f[*a as usize] -= force;
-                f[*b as usize] += force;
-            }
+            springs.pairs.add(&self.sum, f);
         }
     }
 
@@ -512,13 +508,6 @@ fn highest_order(tolerance: f64) -> usize {
 fn add_product(to: &mut [f64], a: &[f64], b: &[f64]) {
     for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
         *to += a * b;
-    }
-}
-
-#[inline]
-fn differences(a: &[u32], b: &[u32], x: &[f64], to: &mut [f64]) {
-    for ((a, b), to) in a.iter().zip(b).zip(to) {
-        *to = x[*b as usize] - x[*a as usize];
     }
 }
 

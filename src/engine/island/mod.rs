@@ -6,10 +6,12 @@
 
 pub(crate) mod accelerations;
 pub(crate) mod forces;
+pub(crate) mod lanes;
 pub(crate) mod linear;
 pub(crate) mod matrix;
 mod near;
 pub(crate) mod nodes;
+pub(crate) mod pairs;
 pub(crate) mod partition;
 pub(crate) mod projection;
 mod ropes;

@@ -123,11 +123,12 @@ impl Turning {
         }
     }
 
-    /// Takes an arm for the mouse's hold on one of the first `movable` nodes, if it turns a disc.
-    pub fn hold(&mut self, world: &World, nodes: &mut Nodes, movable: usize) {
+    /// Takes an arm for the mouse's hold, if it turns a disc of the island.
+    pub fn hold(&mut self, world: &World, nodes: &mut Nodes) {
         let Some(grip) = world.turning_grip() else { return };
         let body = world.bodies.index_of(grip.body).map(|body| body as u32);
-        if let Some(node) = nodes.body[..movable].iter().position(|other| Some(*other) == body) {
+        let own = |node: &usize| Some(nodes.body[*node]) == body && nodes.w[*node] > 0.0;
+        if let Some(node) = (0..nodes.len()).find(own) {
             self.held = Some(self.arms.point.len());
             self.anchor(world, nodes, node as u32, grip.local);
         }
@@ -164,6 +165,12 @@ impl Turning {
                 rotors.omega[spin] = self.rotors.omega[i];
             }
         }
+    }
+
+    /// Whether all angles and their rates are where numbers mean something.
+    pub fn within(&self, most: f64) -> bool {
+        // Written so that a NaN is out of range.
+        self.rotors.angle.iter().chain(&self.rotors.omega).all(|value| value.abs() <= most)
     }
 
     /// Moves the anchors to where their bodies are, and gives them the velocities that they have there.
