@@ -5,6 +5,7 @@
 //! - `ui`: egui panels and plots; `render`: wgpu pipelines, one per kind of mark
 //! - `app`: the simulation thread, commands, camera, tools, undo
 //! - [`lab`]: speed against error: sweeps, references, fronts, reports
+//! - [`trial`]: the pass of a hard case, evaluated while it runs
 //! - [`measure`]: energy, momentum, violation, penetration, error against a truth
 //! - [`scene`]: the file format, its errors, its generators
 //! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
@@ -19,6 +20,7 @@ pub mod measure;
 #[cfg(feature = "desktop")]
 pub mod render;
 pub mod scene;
+pub mod trial;
 pub mod truth;
 #[cfg(feature = "desktop")]
 pub mod ui;

@@ -451,7 +451,7 @@ fn saving_where_nothing_can_be_saved_says_why() {
         |path: &std::path::Path| scene::save(path, &Document::default()).expect_err("no place to write").to_string();
     assert!(save(&folder.path().join("missing/mine.ron")).contains("no such folder"));
     assert!(save(folder.path()).contains("a folder of that name"));
-    assert!(save(std::path::Path::new("/proc/mine.ron")).contains("expected a place for the scene"));
+    assert!(save(std::path::Path::new("/proc/mine.ron")).contains("expected a place for the file"));
 }
 
 fn open(name: &str) -> Setup {

@@ -62,6 +62,12 @@ pub struct ShotArguments {
     /// Draw the whole sandbox, panels included
     #[arg(long)]
     pub window: bool,
+    /// Draw the truth as well, translucently
+    #[arg(long)]
+    pub ghost: bool,
+    /// Draw beside it the same scene by this accuracy, 1e-14 to 0.1
+    #[arg(long, value_name = "TOL", value_parser = numbers::accuracy)]
+    pub beside: Option<f64>,
 }
 
 /// Does what was asked for.

@@ -5,6 +5,7 @@ use super::document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Set
 use super::error::{Fault, Problem, SceneError};
 use super::generator::check_point;
 use super::names::Names;
+use super::pass::Pass;
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, Shape, Spin, Wall, World};
 use crate::truth::TruthError;
 
@@ -49,6 +50,7 @@ impl Document {
             method: self.settings.method(),
             view: self.checked_view()?,
             truth,
+            pass: self.checked_pass()?,
         })
     }
 
@@ -76,6 +78,29 @@ impl Document {
             return Err(in_view(Fault::value("height", view.height, "a height between 1e-6 and 1e9 m")));
         }
         Ok(Some((view.centre, view.height)))
+    }
+
+    fn checked_pass(&self) -> Result<Option<Pass>, Fault> {
+        let Some(pass) = &self.pass else { return Ok(None) };
+        let in_pass = |fault: Fault| fault.within("pass");
+        if !(pass.seconds >= 1.0 / 60.0 && pass.seconds <= 3600.0) {
+            return Err(in_pass(Fault::value("seconds", pass.seconds, "a time between 1/60 and 3600 s")));
+        }
+        if pass.limits.is_empty() {
+            let problem = Problem::new("no limits", "at least one limit", "Write one, such as `limits: [Gap(1e-3)]`.");
+            return Err(in_pass(Fault::new(Some("limits"), problem)));
+        }
+        for (index, limit) in pass.limits.iter().enumerate() {
+            if !(limit.bound() > 0.0 && limit.bound() <= 1e12) {
+                let problem = Problem::new(
+                    format!("a limit of {:?}", limit.bound()),
+                    "a number above 0, 1e12 at most",
+                    "Change it; a limit is what a value must stay below.",
+                );
+                return Err(in_pass(Fault::new(None, problem).inside("limits", index)));
+            }
+        }
+        Ok(Some(pass.clone()))
     }
 
     fn checked_truth(&self, world: &World) -> Result<Option<Truth>, Fault> {

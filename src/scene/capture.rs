@@ -20,6 +20,7 @@ pub fn capture(setup: &Setup) -> Document {
         about: setup.about.clone(),
         view: setup.view.map(|(centre, height)| View { centre, height }),
         truth: setup.truth.filter(|truth| still_fits(world, truth)),
+        pass: setup.pass.clone(),
         settings: Settings::new(world.gravity(), world.drag(), world.tuning(), &setup.method),
         bodies: world.bodies().iter().enumerate().map(named).collect(),
         walls: world.walls().iter().map(wall_entry).collect(),

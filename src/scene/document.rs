@@ -1,6 +1,7 @@
 //! The scene as it stands in a file: every field of the format, its unit and its default.
 
 use super::generator::Generator;
+use super::pass::Pass;
 use crate::engine::{DVec2, Integrator, LinearSolver, Method, Motion, Solver, Tuning};
 use crate::truth::ClosedForm;
 use serde::de::{self, SeqAccess, Visitor};
@@ -28,6 +29,9 @@ pub struct Document {
     /// what a closed form is for.
     #[serde(default, skip_serializing_if = "is_default")]
     pub truth: Option<Truth>,
+    /// What a run of it must keep to, as it opens; shown beside its name and tried by a test.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub pass: Option<Pass>,
     #[serde(default, skip_serializing_if = "is_default")]
     pub settings: Settings,
     #[serde(default, skip_serializing_if = "is_default")]
@@ -49,6 +53,7 @@ impl Default for Document {
             about: String::new(),
             view: None,
             truth: None,
+            pass: None,
             settings: Settings::default(),
             bodies: Vec::new(),
             walls: Vec::new(),

@@ -3,8 +3,9 @@
 use crate::engine::{Integrator, Solver};
 use crate::lab::Family;
 
+/// The shape of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shape {
+pub enum Shape {
     Circle,
     Square,
     Diamond,
@@ -15,7 +16,7 @@ pub(super) enum Shape {
 }
 
 /// The letter of a family; in a diagram it is a capital on the front.
-pub(super) fn letter(family: Family) -> char {
+pub fn letter(family: Family) -> char {
     use Integrator::*;
     match family {
         Family::Dial => 'a',
@@ -37,7 +38,7 @@ pub(super) fn letter(family: Family) -> char {
 }
 
 /// Shape, whether it is filled, and which of the colours of a picture. What is solved whole is filled, what is swept is hollow.
-pub(super) fn look(family: Family) -> (Shape, bool, usize) {
+pub fn look(family: Family) -> (Shape, bool, usize) {
     use Integrator::*;
     match family {
         Family::Dial => (Shape::Circle, true, 0),

@@ -3,7 +3,7 @@
 mod axis;
 pub mod csv;
 pub mod json;
-mod mark;
+pub mod mark;
 pub mod page;
 pub mod svg;
 pub mod table;
