@@ -54,6 +54,8 @@ pub fn shipped() -> &'static [Shipped] {
         "pile": "Pile of 2,000 discs",
         "stack": "Stack of ten",
         "spring_chain": "Spring chain",
+        "disc_chain": "Chain of discs",
+        "crank": "Crank",
         "bullet": "Bullet",
         "joint_grid": "Joint grid",
     }
@@ -95,6 +97,20 @@ pub fn hard_scenes() -> &'static [Shipped] {
         "hard/rigid_net": "Rigid net",
         "hard/braced_net": "Rigid net with diagonals",
         "hard/wheel": "Braced wheel",
+        "hard/physical_pendulum": "Pinned disc",
+        "hard/heavy_disc_chain": "A hundred kilograms on discs of ten grams",
+        "hard/bouncing_ball": "Bouncing balls",
+        "hard/restitution_row": "Restitution row",
+        "hard/bounce_box": "Bounce box",
+        "hard/two_body_exchange": "Two-body exchange",
+        "hard/cradle": "Row of five",
+        "hard/slide": "Slide",
+        "hard/roll": "Roll",
+        "hard/ramp_row": "Ramp row",
+        "hard/weighing": "Weighing",
+        "hard/circle_stack": "Circle stack",
+        "hard/bullet": "Bullet at a thin wall",
+        "hard/wedge": "Wedge",
     }
 }
 

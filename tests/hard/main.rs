@@ -1,10 +1,12 @@
 //! The hard cases under `scenes/hard`, each with its pass, as they open: settings included. Figures are printed; `--nocapture`.
 
 mod closed_forms;
+mod impacts;
 mod nets;
 mod passes;
 mod ropes;
 mod statics;
+mod turning;
 
 use tautline::engine::{DVec2, Method, StepReport, Stepper, World};
 use tautline::measure::{Measures, error_against};

@@ -6,11 +6,13 @@ use crate::engine::Integrator;
 use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
+use crate::engine::impact::Few;
 use crate::engine::integrate::energy_momentum::EnergyMomentum;
 use crate::engine::integrate::nystrom::Nystrom;
 use crate::engine::integrate::outcome::Outcome;
 use crate::engine::integrate::pace::Pace;
 use crate::engine::integrate::rattle::Rattle;
+use crate::engine::integrate::rattle_turning::RattleTurning;
 use crate::engine::integrate::runge_kutta::RungeKutta;
 use crate::engine::integrate::taylor::Taylor;
 use crate::engine::plan::{IslandPlan, Plan};
@@ -23,11 +25,14 @@ pub(crate) struct Islands {
     islands: Vec<(IslandPlan, System)>,
     taylor: Taylor,
     rattle: Rattle,
+    rattle_turning: RattleTurning,
     runge_kutta: RungeKutta,
     nystrom: Nystrom,
     /// By island: it keeps the order in which the island is eliminated.
     energy_momentum: Vec<EnergyMomentum>,
     surroundings: Surroundings,
+    /// Free bodies that can touch, if the plan has them carried; after the islands.
+    few: Few,
     /// Indices of the islands that could not be carried in this step, ascending.
     given_up: Vec<usize>,
 }
@@ -42,6 +47,9 @@ impl Islands {
         for plan in &plan.islands {
             let system = System::new(world, &plan.group.bodies, &plan.group.constraints, plan.linear);
             self.islands.push((plan.clone(), system));
+        }
+        if let Some(few) = &plan.few {
+            self.few.build(world, few);
         }
     }
 
@@ -79,6 +87,14 @@ impl Islands {
             report.local_error = report.local_error.max(outcome.error / system.length);
             report.redundant += system.matrix.pivots.dropped;
         }
+        if let Some(few) = &plan.few {
+            if few.is_held(world) {
+                self.given_up.push(self.islands.len());
+                report.near += 1;
+            } else if !self.few.advance(world, time, report) {
+                self.given_up.push(self.islands.len());
+            }
+        }
         report.given_up = self.given_up.len() - report.near;
     }
 
@@ -93,6 +109,16 @@ impl Islands {
             // The mouse's hold has a damper.
             integrator = Integrator::Taylor;
         }
+        if integrator == Integrator::Rattle && system.turns() {
+            if RattleTurning::takes(system) {
+                let outcome = self.rattle_turning.advance(system, time, pace);
+                if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
+                    return (integrator, outcome);
+                }
+                system.load(world, time);
+            }
+            integrator = Integrator::Taylor;
+        }
         if integrator == Integrator::Rattle {
             // The factor of a net costs more than all else, and RATTLE takes one a substep.
             if plan.steps.is_some() || !plan.net {
@@ -100,7 +126,9 @@ impl Islands {
                 if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
                     return (integrator, outcome);
                 }
-                system.load(world, time);
+                if !outcome.stiff {
+                    system.load(world, time);
+                }
             }
             integrator = Integrator::EnergyMomentum;
         }
@@ -109,7 +137,7 @@ impl Islands {
             Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
-            _ => self.taylor.advance(system, time, tolerance),
+            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length),
         };
         (integrator, outcome)
     }
@@ -120,10 +148,16 @@ impl Islands {
     }
 
     /// Writes the islands back, but for those given up; what turns freely turns on for `time` [s].
-    pub fn store(&self, world: &mut World, time: f64) {
+    pub fn store(&mut self, world: &mut World, plan: &Plan, time: f64) {
+        if plan.few.is_some() {
+            self.few.store(world);
+        }
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
         for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
-            system.store(world);
+            if world.bodies.rotors.omega.is_empty() {
+                system.store(world);
+                continue;
+            }
             for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
                 let rotor = world.bodies.rotor[*body as usize];
                 if rotor != NO_ROTOR && world.bodies.inverse_mass[*body as usize] > 0.0 {
@@ -136,17 +170,16 @@ impl Islands {
                     rotors.omega[rotor as usize] = omega * kept;
                 }
             }
+            // After that, as it knows better of what does not turn freely.
+            system.store(world);
         }
     }
 }
 
-/// Whether all nodes are where numbers mean something.
+/// Whether all nodes are where numbers mean something, and turn as fast as numbers allow.
 fn in_range(system: &System) -> bool {
-    let nodes = &system.nodes;
     // Written so that a NaN is out of range.
-    let within = |values: &[f64], most: f64| values.iter().all(|value| value.abs() <= most);
-    within(&nodes.x, LARGEST_COORDINATE)
-        && within(&nodes.y, LARGEST_COORDINATE)
-        && within(&nodes.vx, LARGEST_SPEED)
-        && within(&nodes.vy, LARGEST_SPEED)
+    let within = |values: &[f64]| values.iter().all(|value| value.abs() <= LARGEST_SPEED * LARGEST_COORDINATE);
+    let rotors = &system.turning.rotors;
+    system.nodes.within(LARGEST_COORDINATE, LARGEST_SPEED) && within(&rotors.angle) && within(&rotors.omega)
 }
