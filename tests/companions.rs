@@ -4,8 +4,11 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tautline::app::companion::{PARTED, Report, Standing, VISIBLE};
+use tautline::app::laboratory::Stage;
 use tautline::app::{Beside, Command, Companion, Edit, Frame, Session, Spawn, frame_after};
+use tautline::app::{LabOrder, LabReport};
 use tautline::engine::{Body, DVec2, Id, Integrator, Method, Wall, World};
+use tautline::lab::ErrorKind;
 use tautline::scene::{self, Setup};
 use tautline::truth;
 
@@ -238,4 +241,53 @@ fn a_simulation_is_the_same_with_companions_and_without() {
     let method = open("playground").method;
     let alone = run(Beside::default());
     assert_eq!(run(Beside { truth: true, rival: Some(Method { substeps: 1, ..method }) }), alone);
+}
+
+fn lab_when(session: &Session, what: &str, wanted: impl Fn(&LabReport) -> bool) -> Arc<LabReport> {
+    wait_for(what, || Some(session.frame().lab.report()).filter(|report| wanted(report)))
+}
+
+#[test]
+fn the_lab_measures_beside_the_simulation_and_is_stopped_resumed_and_written() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let session = start(open("truth/pendulum"));
+    session.send(Command::Lab(LabOrder::Start));
+    let tick = session.frame().world.tick();
+    let first = lab_when(&session, "points", |report| report.points.len() >= 3);
+    assert_eq!((first.stage.clone(), first.scene.as_str()), (Stage::Measuring, "truth/pendulum"));
+    assert!(first.points.iter().all(|point| point.error_kind == ErrorKind::Stored), "{:?}", first.points);
+    at_tick(&session, tick + 10);
+    session.send(Command::Lab(LabOrder::Stop));
+    let stopped = lab_when(&session, "the stop", |report| report.stage == Stage::Stopped);
+    let count = stopped.points.len();
+    for (ending, line) in [("csv", "scene,method,hz"), ("jsonl", "{\"scene\":\"truth/pendulum\""), ("svg", "<svg")] {
+        let path = folder.path().join(format!("lab.{ending}"));
+        session.send(Command::Lab(LabOrder::Export(path.clone())));
+        lab_when(&session, "the file", |report| report.saved == Some(path.display().to_string()));
+        let text = std::fs::read_to_string(&path).expect("it was written");
+        assert!(text.starts_with(line), "{text}");
+        assert!(ending != "jsonl" || text.lines().count() == count);
+    }
+    session.send(Command::Lab(LabOrder::Export(folder.path().join("no/such/folder.csv"))));
+    let frame = wait_for("the fault", || Some(session.frame()).filter(|frame| frame.fault.is_some()));
+    assert!(frame.fault.as_deref().is_some_and(|fault| fault.contains("no such folder")), "{:?}", frame.fault);
+    session.send(Command::DismissFault);
+    session.send(Command::Lab(LabOrder::Resume));
+    let resumed = lab_when(&session, "more points", |report| report.points.len() > count);
+    assert_eq!(resumed.points[..count], stopped.points[..], "what was measured is kept");
+    session.send(Command::Lab(LabOrder::Stop));
+    lab_when(&session, "the stop", |report| report.stage == Stage::Stopped);
+}
+
+#[test]
+fn a_scene_that_was_changed_is_measured_against_a_refined_run() {
+    let session = start(open("truth/double_pendulum"));
+    session.send(Command::Gravity(v(0.0, -2.0)));
+    wait_for("the gravity", || Some(session.frame()).filter(|frame| frame.world.gravity().y == -2.0));
+    session.send(Command::Lab(LabOrder::Start));
+    let report = lab_when(&session, "a point", |report| !report.points.is_empty());
+    println!("errors against: {}", report.reference);
+    assert!(report.points.iter().all(|point| matches!(point.error_kind, ErrorKind::Converged(_))), "{report:?}");
+    session.send(Command::Lab(LabOrder::Stop));
+    lab_when(&session, "the stop", |report| report.stage == Stage::Stopped);
 }

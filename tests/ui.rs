@@ -8,11 +8,13 @@ use egui_kittest::{Harness, HarnessBuilder, SnapshotOptions, SnapshotResults};
 use std::sync::Arc;
 use std::time::Instant;
 use tautline::app::companion::{Gap, Offsets, Parting, Report, Standing};
+use tautline::app::laboratory::Stage as LabStage;
 use tautline::app::{Camera, Command, Edit, Frame, Plots, Sample, SceneInfo, Spawn, Speed, Tool, keys, pick};
-use tautline::app::{Companion, Companions};
+use tautline::app::{Companion, Companions, Lab, LabOrder, LabReport};
 use tautline::engine::{
     Body, Constraint, DVec2, Divergence, Id, Integrator, Kind, Method, Solver, Spin, StepReport, World,
 };
+use tautline::lab::{ErrorKind, Point, Progress, Setting};
 use tautline::measure::Measures;
 use tautline::scene;
 use tautline::trial::{Line, State, Verdict};
@@ -664,6 +666,9 @@ fn every_widget_has_a_name_and_a_tooltip() {
     harness.state_mut().frame = Arc::new(accompanied());
     harness.state_mut().shell.state_mut().rival = true;
     harness.run();
+    harness.state_mut().frame = Arc::new(Frame { lab: measured(LabStage::Stopped).lab, ..accompanied() });
+    harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
+    harness.run();
     for node in harness.root().children_recursive() {
         let node = node.accesskit_node();
         if is_interactive(node.role()) && !node.is_hidden() {
@@ -810,6 +815,118 @@ fn the_pass_of_a_hard_case_is_shown_with_its_value_and_kept_for_the_list() {
     harness.run();
     let verdicts = &harness.state().shell.state().verdicts;
     assert_eq!(verdicts["hard/ball_and_chain"].state, State::Passed);
+}
+
+/// A frame whose lab has measured some points.
+fn measured(stage: LabStage) -> Frame {
+    let (frame, ..) = pair();
+    let settings = [
+        (Setting::BASELINE, 40.0, 3e-3),
+        (Setting::direct(Integrator::Rattle, 4), 12.0, 2e-5),
+        (Setting::direct(Integrator::EnergyMomentum, 4), 30.0, 8e-5),
+        (Setting::direct(Integrator::RungeKutta4, 4), 60.0, 4e-7),
+        (Setting::dial(1e-6), 25.0, 6e-8),
+        (Setting::dial(1e-9), 45.0, 5e-11),
+        (Setting::taylor(1e-12), 90.0, 3e-13),
+    ];
+    let point = |(setting, cost, error): (Setting, f64, f64)| Point {
+        scene: "pair".into(),
+        method: setting.family,
+        hz: setting.hz,
+        substeps: setting.substeps,
+        iterations: setting.iterations,
+        tolerance: setting.tolerance,
+        cpu_us_per_second: cost,
+        error: Some(error),
+        error_kind: ErrorKind::Stored,
+        violation_max: 1e-9,
+        energy_drift: 1e-8,
+    };
+    let report = LabReport {
+        scene: "pair".into(),
+        title: "Pair".into(),
+        seconds: 3.0,
+        stage,
+        progress: Some(Progress { done: 7, total: 96, seconds_left: 8.2 }),
+        reference: "stored truth".into(),
+        points: Arc::new(settings.map(point).to_vec()),
+        slow: 2,
+        saved: None,
+    };
+    Frame { lab: Lab::fixed(report), ..frame }
+}
+
+#[test]
+fn the_lab_starts_stops_resumes_and_exports() {
+    let order = |c: &Command| if let Command::Lab(order) = c { Some(order.clone()) } else { None };
+    let mut harness = harness(bridge());
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
+    harness.run();
+    harness.get_by_label("Start").click();
+    harness.run();
+    assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Start));
+    harness.state_mut().frame = Arc::new(measured(LabStage::Measuring));
+    harness.run();
+    for text in ["7 of 96, 9 s left", "7 points, 2 settings too slow. Against: stored truth, over 3 s."] {
+        assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
+    }
+    harness.get_by_label("Stop").click();
+    harness.run();
+    assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Stop));
+    harness.state_mut().frame = Arc::new(measured(LabStage::Stopped));
+    harness.run();
+    harness.get_by_label("Resume").click();
+    harness.run();
+    assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Resume));
+    harness.get_by_label("SVG").click();
+    harness.run();
+    assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Export("lab.svg".into())));
+}
+
+#[test]
+fn the_lab_says_what_to_use_and_a_click_on_a_point_loads_its_settings() {
+    let mut harness = harness(measured(LabStage::Finished));
+    harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
+    harness.run();
+    assert!(harness.query_by_label_contains("For an error of 1e-6 use Accuracy 1e-6").is_some());
+    harness.get_by_label("Wanted error").set_value_accesskit(1e-10);
+    harness.run();
+    assert!(harness.query_by_label_contains("For an error of 1e-10 use Accuracy 1e-9").is_some());
+    // The diagram's points are found by sweeping the pointer over it, as a hand would.
+    let panel = harness.state().canvas.left_bottom();
+    let mut loaded = Vec::new();
+    for i in 0..60 {
+        for j in 0..30 {
+            let pos = panel + vec2(340.0 + 7.0 * i as f32, 30.0 + 10.0 * j as f32);
+            click_at_once(&mut harness, pos);
+            loaded.extend(taken(&mut harness).into_iter().filter_map(|c| match c {
+                Command::Method(method) => Some(method),
+                _ => None,
+            }));
+        }
+    }
+    let by = |accuracy: f64| loaded.iter().any(|method| method.automatic && method.accuracy == accuracy);
+    assert!(by(1e-6) && by(1e-9), "{loaded:?}");
+    assert!(
+        loaded
+            .iter()
+            .any(|method| method.integrator == Integrator::Rattle && !method.automatic && method.substeps == 4)
+    );
+}
+
+/// A click in as few passes as possible.
+fn click_at_once(harness: &mut Harness<'_, Desk>, pos: Pos2) {
+    harness.event(Event::PointerMoved(pos));
+    harness.step();
+    for pressed in [true, false] {
+        harness.event(Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    harness.step();
 }
 
 #[test]
@@ -1029,6 +1146,9 @@ fn the_shell_looks_as_it_did() {
     album.add("shell_side_by_side", accompanied(), 1.0, |harness| {
         let state = harness.state_mut().shell.state_mut();
         (state.view.ghost, state.rival, state.plot) = (true, true, PlotTab::Distance);
+    });
+    album.add("shell_lab", measured(LabStage::Measuring), 1.0, |harness| {
+        harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
     });
     album.add("shell_help", bridge(), 1.0, |harness| harness.key_press(Key::F1));
     album.add("shell_finder", bridge(), 1.0, |harness| {
