@@ -69,6 +69,10 @@ fn a_warm_step_allocates_nothing() {
             assert_eq!(found, 0, "{name}, {}", integrator.name());
         }
     }
+    for name in ["disc_chain", "crank", "hard/heavy_disc_chain"] {
+        let found = allocations(name, |method| method, 60);
+        assert_eq!(found, 0, "{name}");
+    }
     for (name, warm_up) in [("hard/bouncing_ball", 300), ("hard/weighing", 10), ("hard/bounce_box", 60), ("stack", 10)]
     {
         let found = allocations(name, |method| Method { automatic: true, ..method }, warm_up);

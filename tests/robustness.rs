@@ -273,6 +273,74 @@ fn random_worlds_run_for_ten_seconds_without_a_panic_or_a_nan() {
     assert!(plain.is_empty());
 }
 
+/// Discs in a loose tree or net, held together off their centres, some ropes, springs and a hold among them.
+fn turning_world(random: &mut Random) -> World {
+    let mut world = World::new();
+    let count = 2 + random.below(8);
+    let heavy = [1.0, 1e3, 1e6][random.below(3)];
+    for i in 0..count {
+        let radius = random.scale(0.05, 0.5);
+        let spin = Some(Spin { angle: random.between(-10.0, 10.0), omega: random.between(-20.0, 20.0) });
+        let mass = random.scale(0.1, 1.0) * if random.one_in(4) { heavy } else { 1.0 };
+        let body =
+            Body { position: DVec2::new(i as f64, random.between(-1.0, 1.0)), radius, mass, spin, ..Body::default() };
+        world.add_body(&Body { collides: random.one_in(8), ..body }).unwrap();
+    }
+    for i in 0..count + random.below(3) {
+        // Where both ends are now, so that there is a position which meets them all.
+        let a = random_anchor(random, &world);
+        let b = if i < count {
+            Anchor::Body(world.bodies().id[i], DVec2::new(0.1, -0.2))
+        } else {
+            random_anchor(random, &world)
+        };
+        let at = |anchor: &Anchor| match *anchor {
+            Anchor::World(point) => point,
+            Anchor::Body(id, local) => world.to_world(world.bodies().index_of(id).unwrap(), local),
+        };
+        let length = (at(&a) - at(&b)).length();
+        let kind = match random.below(4) {
+            0 | 1 => Kind::Rod { length },
+            2 => Kind::Rope { length: length * random.between(1.0, 1.2) },
+            _ => Kind::Spring { rest: length, stiffness: random.scale(1.0, 1e4), damping: random.scale(1e-2, 10.0) },
+        };
+        edit(&mut world, |world| world.add_constraint(&Constraint { kind, a, b }).map(drop));
+    }
+    if random.one_in(3) {
+        let body = world.bodies().id[random.below(count)];
+        let hold = Grip::new(body, DVec2::new(0.05, 0.02), random.point(), random.scale(0.1, 10.0));
+        world.set_grip(Some(hold)).unwrap();
+    }
+    world
+}
+
+#[test]
+fn discs_turned_off_their_centres_stay_finite_under_the_dial_and_say_what_carried_them() {
+    let (mut carried, mut given_up, mut near, mut steps) = (0, 0, 0, 0);
+    for accuracy in [1e-3, 1e-6, 1e-9, 1e-13] {
+        let method = Method { automatic: true, accuracy, ..Method::default() };
+        for seed in 0..100 {
+            let mut world = turning_world(&mut Random::new(2 * seed));
+            let mut stepper = Stepper::new(method).unwrap();
+            assert!(stepper.plan(&world).sentence().contains("off a centre"), "seed {seed}");
+            for step in 0..60 {
+                let report = stepper.step(&mut world);
+                assert!(is_finite(&world), "seed {seed}, {accuracy:e}, step {step}: not a number in the world");
+                assert!(report.divergence.is_none(), "seed {seed}, {accuracy:e}, step {step}: {:?}", report.divergence);
+                // Every island went one way or the other, and what went by series met its rods.
+                assert!(report.integrator.is_some() || report.given_up + report.near > 0, "seed {seed}: {report:?}");
+                assert!(report.given_up + report.near == 0 || report.substeps > 0);
+                carried += usize::from(report.given_up + report.near == 0);
+                given_up += report.given_up;
+                near += report.near;
+                steps += 1;
+            }
+        }
+    }
+    println!("{carried} of {steps} steps carried whole; {given_up} islands given up, {near} near something");
+    assert!(carried * 10 > steps * 8, "{carried} of {steps}");
+}
+
 #[test]
 fn random_edits_of_a_running_world_do_no_harm() {
     let mut diverged = 0;

@@ -21,7 +21,7 @@ const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
 const LOCAL: f64 = 0.03;
 /// The same for methods of order 2, whose errors add up more evenly.
-const LOCAL_SECOND: f64 = 0.018;
+const LOCAL_SECOND: f64 = 0.028;
 
 /// Accuracies down to which methods of order 2 cost least.
 const SECOND_ORDER: f64 = 6e-4;
@@ -71,7 +71,7 @@ pub struct Plan {
     pub(crate) integrator: Integrator,
     /// Islands left to the substep loop because they could not be carried, by index among all.
     without: Vec<usize>,
-    /// The body whose rim the mouse holds, which turns its island.
+    /// The disc that the mouse holds off its centre, and so turns.
     turned: Option<Id>,
     sentence: String,
 }
@@ -85,10 +85,14 @@ pub(crate) struct IslandPlan {
     pub guarded: bool,
     /// Its rods close more than one loop, so that elimination fills in.
     pub net: bool,
+    /// Anchors that turn with a disc; with none the angles are not among the unknowns.
+    pub turning: usize,
     /// What solves its rows, and in how many sweeps at most.
     pub linear: (LinearSolver, u32),
     /// Local error allowed in a step, in parts of the island's size.
     pub tolerance: f64,
+    /// The same where a series stands in.
+    pub series_tolerance: f64,
     /// Steps within a step of the world, where the integrator does not find them itself.
     pub steps: Option<u32>,
 }
@@ -144,7 +148,7 @@ impl Plan {
         &self.sentence
     }
 
-    /// Gives what nothing can touch and nothing turns to integrators that carry islands whole.
+    /// Gives what nothing can touch to integrators that carry islands whole.
     fn find_islands(&mut self, world: &World, method: &Method) {
         self.islands.clear();
         self.few = None;
@@ -168,7 +172,8 @@ impl Plan {
             if self.without.binary_search(&index).is_err() {
                 group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
                 let guarded = group.bodies.iter().any(|body| self.touches(world, *body));
-                self.islands.push(IslandPlan { guarded, ..IslandPlan::of(world, method, group) });
+                let turning = self.turning_anchors(world, &group);
+                self.islands.push(IslandPlan { guarded, ..IslandPlan::of(world, method, group, turning) });
             }
         }
         let bodies = &world.bodies;
@@ -204,16 +209,22 @@ impl Plan {
         self.contacts && world.bodies.collides[body as usize] && world.bodies.radius[body as usize] > 0.0
     }
 
-    /// Whether an island moves smoothly as long as nothing touches it: no anchor turns with a body, no hold turns one. Free bodies
-    /// that can touch are a pile, a stack or balls in a box: contacts are what their scene is about.
+    /// Whether an island moves smoothly as long as nothing touches it. Free bodies that can touch are a pile, a stack or balls in
+    /// a box: contacts are what their scene is about.
     fn smooth(&self, world: &World, group: &Group) -> bool {
+        !group.constraints.is_empty() || !group.bodies.iter().any(|body| self.touches(world, *body))
+    }
+
+    /// Ends of constraints off the centre of a body, and the mouse's hold if it is one: what turns an island's discs.
+    fn turning_anchors(&self, world: &World, group: &Group) -> usize {
         let (bodies, c) = (&world.bodies, &world.constraints);
-        let touches = |body: &u32| group.constraints.is_empty() && self.touches(world, *body);
-        let turns = |body: u32, at| body != WORLD && at != DVec2::ZERO;
-        let held = |body: &u32| self.turned == Some(bodies.id[*body as usize]);
-        let turned =
-            |i: &u32| turns(c.a[*i as usize], c.at_a[*i as usize]) || turns(c.b[*i as usize], c.at_b[*i as usize]);
-        !group.bodies.iter().any(|body| touches(body) || held(body)) && !group.constraints.iter().any(turned)
+        let turns = |body: u32, at: DVec2| usize::from(body != WORLD && at != DVec2::ZERO);
+        let ends = |i: &u32| {
+            let i = *i as usize;
+            turns(c.a[i], c.at_a[i]) + turns(c.b[i], c.at_b[i])
+        };
+        let held = group.bodies.iter().any(|body| self.turned == Some(bodies.id[*body as usize]));
+        group.constraints.iter().map(ends).sum::<usize>() + usize::from(held)
     }
 
     /// Springs become forces where the substep `h` resolves them, rows where it does not; the rest are rows.
@@ -297,7 +308,13 @@ impl Plan {
                     write!(sentence, "{}, {} a step", spoken(integrator), plural(steps as usize, "substep"))
                 }
                 (Integrator::Rattle, None) => {
-                    write!(sentence, "RATTLE within {:.0e}, the midpoint rule where it is stiff", method.accuracy)
+                    let turning = carried().filter(|island| island.turning > 0).count();
+                    let other = match carried().count() - turning {
+                        0 => "Taylor series",
+                        _ if turning > 0 => "the midpoint rule or Taylor series",
+                        _ => "the midpoint rule",
+                    };
+                    write!(sentence, "RATTLE within {:.0e}, {other} where it is stiff", method.accuracy)
                 }
                 (_, None) => write!(sentence, "{} within {:.0e}", spoken(integrator), method.accuracy),
             };
@@ -305,6 +322,10 @@ impl Plan {
         sentence.push_str(&self.describe_linear(method));
         if self.islands.iter().any(|island| island.guarded) {
             sentence.push_str(" while nothing is near");
+        }
+        let turning: usize = self.islands.iter().map(|island| island.turning).sum();
+        if turning > 0 {
+            let _ = write!(sentence, ", {} off a centre", plural(turning, "anchor"));
         }
     }
 
@@ -362,11 +383,12 @@ impl Plan {
             let bodies = (0..world.bodies.len()).filter(|i| !self.in_island[*i] && world.bodies.inverse_mass[*i] > 0.0);
             let _ = match bodies.count() {
                 0 => Ok(()),
-                1 => sentence.write_str("; 1 body can touch or turn and goes through the substeps"),
-                n => write!(sentence, "; {n} bodies can touch or turn and go through the substeps"),
+                1 => sentence.write_str("; 1 body can touch and goes through the substeps"),
+                n => write!(sentence, "; {n} bodies can touch and go through the substeps"),
             };
         }
-        sentence.push_str(if self.spin { "; rotations" } else { "; particles only" });
+        let turns = self.spin || self.islands.iter().any(|island| island.turning > 0);
+        sentence.push_str(if turns { "; rotations" } else { "; particles only" });
         sentence.push_str(match (self.contacts, self.restitution) {
             _ if self.few.is_some() => ", the next impact is the first root of a gap",
             (false, _) => ", nothing can touch: no broad phase",
@@ -387,16 +409,21 @@ impl Plan {
 }
 
 impl IslandPlan {
-    /// How an island is carried. Ropes that tighten and slacken need events, which only the series has; what Nyström's methods
-    /// do not take goes by series too.
-    fn of(world: &World, method: &Method, group: Group) -> IslandPlan {
+    /// How an island is carried. Ropes that tighten and slacken need events, which only the series has; it takes anchors that turn as
+    /// well, as does RATTLE. What Nyström's methods do not take goes by series too.
+    fn of(world: &World, method: &Method, group: Group, turning: usize) -> IslandPlan {
         let kinds = || group.constraints.iter().map(|i| &world.constraints.kind[*i as usize]);
         let ropes = kinds().any(|kind| matches!(kind, Kind::Rope { .. }));
         let plain_spring = |kind: &Kind| matches!(kind, Kind::Spring { damping, .. } if *damping == 0.0);
         let springs = world.drag == 0.0 && kinds().all(plain_spring);
+        let damper = |kind: &Kind| matches!(kind, Kind::Spring { damping, .. } if *damping > 0.0);
+        // Where anchors turn, only the series takes what depends on velocities.
+        let damped = turning > 0 && (world.drag > 0.0 || kinds().any(damper));
         let integrator = match method.integrator {
             _ if ropes => Integrator::Taylor,
-            _ if method.automatic && method.accuracy >= SECOND_ORDER => Integrator::Rattle,
+            _ if method.automatic && method.accuracy >= SECOND_ORDER && !damped => Integrator::Rattle,
+            Integrator::Rattle if turning > 0 && !method.automatic && !damped => Integrator::Rattle,
+            _ if turning > 0 => Integrator::Taylor,
             _ if method.automatic && springs && method.accuracy >= FINEST_NYSTROM => {
                 if method.accuracy >= ORDER_4 {
                     Integrator::Nystrom4
@@ -411,14 +438,13 @@ impl IslandPlan {
         let rigid = kinds().filter(|kind| !matches!(kind, Kind::Spring { .. })).count();
         let net = rigid > group.bodies.len() + 1;
         let steps = (!method.automatic).then_some(method.substeps);
-        let tolerance = match integrator {
-            Integrator::Rattle => LOCAL_SECOND * method.accuracy,
-            _ => LOCAL * method.accuracy.min(LOOSEST_SERIES),
-        };
+        let series_tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
+        let tolerance =
+            if integrator == Integrator::Rattle { LOCAL_SECOND * method.accuracy } else { series_tolerance };
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
         let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);
-        IslandPlan { group, integrator, guarded: false, net, linear, tolerance, steps }
+        IslandPlan { group, integrator, guarded: false, net, turning, linear, tolerance, series_tolerance, steps }
     }
 }
 
@@ -440,9 +466,9 @@ fn spoken(integrator: Integrator) -> &'static str {
     }
 }
 
-/// The body that the mouse holds off its centre, if it can turn.
+/// The disc that the mouse turns.
 fn turned_by_mouse(world: &World) -> Option<Id> {
-    world.grip.filter(|grip| grip.local != DVec2::ZERO).map(|grip| grip.body)
+    world.turning_grip().map(|grip| grip.body)
 }
 
 fn count(world: &World, which: impl Fn(&Kind) -> bool) -> usize {

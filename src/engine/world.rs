@@ -258,6 +258,15 @@ impl World {
         distance - self.bodies.radius[a]
     }
 
+    /// The mouse's hold, if it is on a disc that it turns.
+    pub(crate) fn turning_grip(&self) -> Option<&Grip> {
+        let turned = |grip: &&Grip| {
+            let body = self.bodies.index_of(grip.body).map(|body| self.bodies.rotor[body]);
+            body.is_some_and(|rotor| rotor != NO_ROTOR && self.bodies.rotors.inverse_inertia[rotor as usize] > 0.0)
+        };
+        self.grip.as_ref().filter(|grip| grip.local != DVec2::ZERO).filter(turned)
+    }
+
     fn anchor(&self, body: u32, at: DVec2) -> Anchor {
         if body == WORLD { Anchor::World(at) } else { Anchor::Body(self.bodies.id[body as usize], at) }
     }

@@ -1,5 +1,8 @@
 //! The scenes that come with the program, inside it.
 
+use super::document::Document;
+use super::pass::Pass;
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// A scene inside the program.
@@ -14,6 +17,15 @@ pub struct Shipped {
 }
 
 impl Shipped {
+    /// What a run of it must keep to, if it is a trial. Read once, all of them together.
+    pub fn pass(&self) -> Option<Pass> {
+        static PASSES: LazyLock<BTreeMap<&'static str, Pass>> = LazyLock::new(|| {
+            let read = |scene: &Shipped| Document::from_text(scene.name, scene.text).ok()?.pass;
+            every_scene().iter().filter_map(|scene| Some((scene.name, read(scene)?))).collect()
+        });
+        PASSES.get(self.name).cloned()
+    }
+
     /// Title of the section that it is listed in.
     pub fn section(&self) -> &'static str {
         sections().into_iter().find(|(_, scenes)| scenes.contains(self)).map_or("", |(title, _)| title)
@@ -42,6 +54,8 @@ pub fn shipped() -> &'static [Shipped] {
         "pile": "Pile of 2,000 discs",
         "stack": "Stack of ten",
         "spring_chain": "Spring chain",
+        "disc_chain": "Chain of discs",
+        "crank": "Crank",
         "bullet": "Bullet",
         "joint_grid": "Joint grid",
     }
@@ -83,6 +97,8 @@ pub fn hard_scenes() -> &'static [Shipped] {
         "hard/rigid_net": "Rigid net",
         "hard/braced_net": "Rigid net with diagonals",
         "hard/wheel": "Braced wheel",
+        "hard/physical_pendulum": "Pinned disc",
+        "hard/heavy_disc_chain": "A hundred kilograms on discs of ten grams",
         "hard/bouncing_ball": "Bouncing balls",
         "hard/restitution_row": "Restitution row",
         "hard/bounce_box": "Bounce box",
@@ -100,7 +116,7 @@ pub fn hard_scenes() -> &'static [Shipped] {
 
 /// All scenes, section by section, as they are listed.
 pub fn sections() -> [(&'static str, &'static [Shipped]); 3] {
-    [("Sandbox", shipped()), ("Hard cases", hard_scenes()), ("Exact motion", truth_scenes())]
+    [("Sandbox", shipped()), ("Hard cases", hard_scenes()), ("Truth", truth_scenes())]
 }
 
 /// All scenes in one list.

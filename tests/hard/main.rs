@@ -3,8 +3,10 @@
 mod closed_forms;
 mod impacts;
 mod nets;
+mod passes;
 mod ropes;
 mod statics;
+mod turning;
 
 use tautline::engine::{DVec2, Method, StepReport, Stepper, World};
 use tautline::measure::{Measures, error_against};

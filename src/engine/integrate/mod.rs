@@ -5,6 +5,7 @@
 //! and decays the velocity exactly (Strang splitting in the second-order methods).
 
 pub(crate) mod energy_momentum;
+mod events;
 mod explicit_euler;
 mod forces;
 pub(crate) mod nystrom;
@@ -12,7 +13,7 @@ pub(crate) mod outcome;
 pub(crate) mod pace;
 mod position_verlet;
 pub(crate) mod rattle;
-mod rope_events;
+pub(crate) mod rattle_turning;
 pub(crate) mod runge_kutta;
 mod semi_implicit_euler;
 pub(crate) mod taylor;

@@ -1,17 +1,19 @@
-//! RATTLE: velocity Verlet with the positions brought back onto C = 0 and the velocities onto Ċ = 0 in every step.
+//! RATTLE: velocity Verlet with the positions brought back onto C = 0 in every step and the velocities onto Ċ = 0.
 //!
 //! ```text
-//! v½ = v + ½ h a(x),   x' = x + h v½ + M⁻¹ J(x)ᵀ μ,   C(x') = 0,   v' = (x' − x)/h + ½ h a(x') + M⁻¹ J(x')ᵀ ν,   J(x') v' = 0
+//! u₀ = h v + ½ h² (a + M⁻¹Jᵀλ)(x₀),   uₙ = uₙ₋₁ + h² (a + M⁻¹Jᵀλ)(xₙ),   xₙ₊₁ = xₙ + uₙ,   λₙ such that C(xₙ₊₁) = 0
+//! v = u/h + ½ h a(x) + M⁻¹J(x)ᵀν,   J(x) v = 0   at the end
 //! ```
 //!
-//! Andersen, J. Comput. Phys. 52, 24 (1983); μ by quasi-Newton iterations with the one factor of A(x) that the step before left
-//! behind (SHAKE's iteration, solved for all rows at once), started from the multipliers at x. Order 2, symplectic without
-//! dampers and drag: the energy stays bounded. One factorisation and some five solves a step.
+//! Andersen, J. Comput. Phys. 52, 24 (1983). Between the steps the velocities lie half-way (SHAKE; Ryckaert, Ciccotti and Berendsen,
+//! J. Comput. Phys. 23, 327 (1977)): the positions are the same whether they are projected in every step or once at the end.
+//! λ follows by quasi-Newton iterations with the one factor of A(xₙ), solved for all rows at once, started from the multipliers
+//! before. Order 2, symplectic without dampers and drag: the energy stays bounded. One factorisation and some three solves a step.
 //!
 //! Fails where a rod turns by more than half a radian or so in a step, or where springs and tense light rods swing faster than
-//! h ω = 2: the step is cut before, and halved where the iterations do not converge.
+//! h ω = 2: the step is cut before, and all steps are halved where the iterations do not converge.
 
-use super::outcome::{Outcome, in_parts};
+use super::outcome::Outcome;
 use super::pace::{Pace, steps_within};
 use crate::engine::island::System;
 
@@ -27,42 +29,49 @@ const TIGHT: f64 = 1e-14;
 /// Corrections below this that do not shrink are rounding.
 const ROUNDING: f64 = 1e-10;
 /// Part of the wanted local error to which constraints are met where only that much is asked for.
-const LOOSE: f64 = 3e-2;
+const LOOSE: f64 = 0.1;
 /// Times that the number of steps is corrected.
 const MOST_CHANGES: u32 = 4;
+/// A start farther off C = 0 (in parts of L²) is projected, whatever is wanted: someone has moved a body.
+const FAR: f64 = 1e-6;
+/// Velocities that break Ċ = 0 by more than this part of the largest are projected.
+const ASTRAY: f64 = 1e-9;
 
 /// Scratch memory, by node unless said.
 #[derive(Debug, Default)]
 pub(crate) struct Rattle {
-    /// Accelerations by the forces at the start of a step.
+    /// Accelerations by the forces at the present positions.
     ax: Vec<f64>,
     ay: Vec<f64>,
-    /// How far the nodes move in a step.
+    /// How far the nodes move in a step; and did in the step before, or would by the multipliers before.
     ux: Vec<f64>,
     uy: Vec<f64>,
+    before: [Vec<f64>; 2],
     load: Vec<f64>,
     start: Start,
-    /// By row: what a step's constraints do beyond the multipliers of its start.
-    moved: Vec<f64>,
-    /// Multipliers of the rods at the start of the last step, and its length [s]; none after a change.
-    before: Vec<f64>,
-    last: f64,
+    /// By row: the mean multipliers of this step and of the one before, and h² λ of this step.
+    lambda: Vec<f64>,
+    lambda_before: Vec<f64>,
+    total: Vec<f64>,
     /// C is met to this part of L².
     tight: f64,
-    /// RMS of the local error of the last step [m].
-    error: f64,
 }
 
 /// An island as it was at the start.
 #[derive(Debug, Default)]
 struct Start {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    vx: Vec<f64>,
-    vy: Vec<f64>,
-    rods: Vec<f64>,
-    ax: Vec<f64>,
-    ay: Vec<f64>,
+    coordinates: [Vec<f64>; 4],
+    /// By row.
+    lambda: Vec<f64>,
+}
+
+/// How a run of equal steps ended.
+enum Run {
+    /// With an estimate of the local errors' sum [m].
+    Done(f64),
+    /// So many steps will do.
+    Again(f64),
+    Failed,
 }
 
 impl Rattle {
@@ -70,9 +79,9 @@ impl Rattle {
     /// an implicit method does better, nothing is done and the outcome says so.
     pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace) -> Outcome {
         let mut outcome = Outcome { order: 2, ..Outcome::default() };
-        if !self.begin(system, pace) {
-            outcome.failed = true;
-            return outcome;
+        self.reserve(system, pace);
+        if !system.unconstrained() && system.rods.lambda.iter().all(|lambda| *lambda == 0.0) && !self.expect(system) {
+            return Outcome { failed: true, ..outcome };
         }
         let rates = system.rates(&mut self.load);
         let stable = libm::ceil(time * (rates.turn / TURN).max(rates.swing / SWING)).max(1.0);
@@ -82,223 +91,240 @@ impl Rattle {
             Pace::Within(_) if !(stable <= most) => return Outcome { stiff: true, ..outcome },
             Pace::Within(_) => stable,
         };
-        if !(steps <= super::MOST_STEPS) {
-            outcome.failed = true;
-            return outcome;
+        if !(steps <= super::MOST_STEPS && meet(system)) {
+            return Outcome { failed: true, ..outcome };
         }
-        self.start.keep(system, &self.ax, &self.ay);
-        for change in 0..=MOST_CHANGES {
-            let mut probed = false;
-            let mut more = None;
-            for _ in 0..steps as u32 {
-                if !in_parts(time / steps, &mut outcome, |h| self.step(system, h)) {
-                    outcome.failed = true;
+        self.start.keep(system);
+        let mut changes = 0;
+        loop {
+            let asked = if let (Pace::Within(tolerance), true) = (pace, changes < MOST_CHANGES) {
+                tolerance
+            } else {
+                f64::INFINITY
+            };
+            match self.run(system, time, steps, asked) {
+                Run::Done(error) => {
+                    outcome.steps = steps as u32;
+                    outcome.error = error;
                     return outcome;
                 }
-                outcome.error += self.error;
-                if let (Pace::Within(tolerance), false, true) = (pace, probed, change < MOST_CHANGES) {
-                    probed = true;
-                    more = steps_within(steps, steps * self.error / tolerance, 2.0);
-                    if more.is_some() {
-                        break;
-                    }
-                }
+                Run::Again(more) => (steps, changes) = (more.min(super::MOST_STEPS), changes + 1),
+                Run::Failed => steps *= 2.0,
             }
-            let Some(more) = more.map(|more| more.min(super::MOST_STEPS)) else { return outcome };
-            steps = more;
-            outcome = Outcome { order: 2, retries: outcome.retries + 1, ..Outcome::default() };
-            self.start.restore(system, &mut self.ax, &mut self.ay);
-            self.last = 0.0;
+            outcome.retries += 1;
+            if !(steps <= super::MOST_STEPS) {
+                return Outcome { failed: true, ..outcome };
+            }
+            self.start.restore(system);
         }
-        outcome
     }
 
-    /// Makes room, meets the constraints, and finds accelerations and multipliers.
-    fn begin(&mut self, system: &mut System, pace: Pace) -> bool {
-        let nodes = system.nodes.len();
-        for scratch in [&mut self.ax, &mut self.ay, &mut self.ux, &mut self.uy] {
+    /// Makes room.
+    fn reserve(&mut self, system: &System, pace: Pace) {
+        let (nodes, rows) = (system.nodes.len(), system.rhs.len());
+        let [px, py] = &mut self.before;
+        for scratch in [&mut self.ax, &mut self.ay, &mut self.ux, &mut self.uy, px, py] {
             scratch.resize(nodes, 0.0);
         }
-        self.moved.resize(system.rhs.len(), 0.0);
-        self.before.resize(system.rods.a.len(), 0.0);
-        self.last = 0.0;
+        for scratch in [&mut self.lambda, &mut self.lambda_before, &mut self.total] {
+            scratch.resize(rows, 0.0);
+        }
         self.tight = match pace {
             Pace::Steps(_) => TIGHT,
-            Pace::Within(tolerance) => (LOOSE * tolerance / system.length).max(TIGHT),
+            Pace::Within(tolerance) => (LOOSE * tolerance / system.length).clamp(TIGHT, FAR),
         };
-        if !system.meet_constraints() {
-            return false;
-        }
-        system.force_accelerations(&mut self.ax, &mut self.ay);
-        // Only the multipliers are wanted; u is scratch.
-        self.ux.clone_from(&self.ax);
-        self.uy.clone_from(&self.ay);
-        system.constrain_accelerations(&mut self.ux, &mut self.uy);
-        true
     }
 
-    /// One step of `h` seconds; changes nothing if the constraints cannot be met.
-    fn step(&mut self, system: &mut System, h: f64) -> bool {
-        let half = 0.5 * h;
-        let nodes = &system.nodes;
-        for ((u, v), a) in self.ux.iter_mut().zip(&nodes.vx).zip(&self.ax) {
-            *u = h * (v + half * a);
-        }
-        for ((u, v), a) in self.uy.iter_mut().zip(&nodes.vy).zip(&self.ay) {
-            *u = h * (v + half * a);
-        }
-        self.error = 0.0;
-        if !system.unconstrained() && !self.meet(system, h) {
-            return false;
-        }
+    /// The multipliers where none are known: at the start of a scene. Returns whether the constraints can be met.
+    fn expect(&mut self, system: &mut System) -> bool {
+        let met = system.meet_constraints();
+        system.force_accelerations(&mut self.ax, &mut self.ay);
+        system.constrain_accelerations(&mut self.ax, &mut self.ay);
+        met
+    }
+
+    /// So many equal steps. Ends after the first one if its error says that `tolerance` [m] takes more of them.
+    fn run(&mut self, system: &mut System, time: f64, steps: f64, tolerance: f64) -> Run {
+        let h = time / steps;
         let damped = system.damped();
-        let nodes = &mut system.nodes;
-        let over = 1.0 / h;
-        // The velocity at half the step; what forces see of it is carried on to the end of the step.
-        for (v, u) in [(&mut nodes.vx, &mut self.ux), (&mut nodes.vy, &mut self.uy)] {
-            for (v, u) in v.iter_mut().zip(u) {
-                let middle = over * *u;
-                (*v, *u) = (if damped { 2.0 * middle - *v } else { middle }, middle);
-            }
+        self.lambda.copy_from_slice(&self.start.lambda);
+        system.factor_if_constrained();
+        system.force_accelerations(&mut self.ax, &mut self.ay);
+        let nodes = &system.nodes;
+        for (u, v) in [(&mut self.ux, &nodes.vx), (&mut self.uy, &nodes.vy)] {
+            u.iter_mut().zip(v).for_each(|(u, v)| *u = h * v);
         }
-        let to = |x: &mut [f64], v: &[f64]| x.iter_mut().zip(v).for_each(|(x, v)| *x += h * v);
-        to(&mut nodes.x, &self.ux);
-        to(&mut nodes.y, &self.uy);
+        let mut error = 0.0;
+        for step in 0..steps as u32 {
+            let weight = if step == 0 { 0.5 * h * h } else { h * h };
+            if damped {
+                self.remember();
+            }
+            let kick = |u: &mut [f64], a: &[f64]| u.iter_mut().zip(a).for_each(|(u, a)| *u += weight * a);
+            kick(&mut self.ux, &self.ax);
+            kick(&mut self.uy, &self.ay);
+            if !system.unconstrained() {
+                self.predict(system, step, weight);
+                if step == 0 && !damped {
+                    self.remember();
+                }
+                if !self.meet(system, weight) {
+                    return Run::Failed;
+                }
+            }
+            let nodes = &mut system.nodes;
+            for (x, u) in [(&mut nodes.x, &self.ux), (&mut nodes.y, &self.uy)] {
+                x.iter_mut().zip(u).for_each(|(x, u)| *x += u);
+            }
+            if damped {
+                self.estimate_velocities(system, step, h);
+            }
+            if step == 0 {
+                error = steps * self.renew_accelerations_and_tell(system, h, damped);
+                if let Some(more) = steps_within(steps, error / tolerance, 2.0) {
+                    return Run::Again(more);
+                }
+            } else {
+                system.force_accelerations(&mut self.ax, &mut self.ay);
+            }
+            system.factor_if_constrained();
+        }
         self.finish(system, h);
-        true
+        Run::Done(error)
+    }
+
+    /// Keeps u.
+    fn remember(&mut self) {
+        self.before[0].copy_from_slice(&self.ux);
+        self.before[1].copy_from_slice(&self.uy);
+    }
+
+    /// Adds to u what the constraints do with the multipliers expected: those before, drawn on in a straight line. The first step's
+    /// are those of its start; its mean, as the positions see it, lies a third of the step later.
+    fn predict(&mut self, system: &mut System, step: u32, weight: f64) {
+        let ahead = match step {
+            0 => 0.0,
+            1 => 2.0,
+            2 => 1.5,
+            _ => 1.0,
+        };
+        let rows = self.lambda.len();
+        let (lambda, before) = (&mut self.lambda[..rows], &mut self.lambda_before[..rows]);
+        let (total, rhs) = (&mut self.total[..rows], &mut system.rhs[..rows]);
+        for k in 0..rows {
+            let now = lambda[k];
+            let expected = if step == 0 { now } else { now + ahead * (now - before[k]) };
+            before[k] = now;
+            total[k] = weight * expected;
+            rhs[k] = total[k];
+        }
+        system.push(&mut self.ux, &mut self.uy);
     }
 
     /// Meets C = 0 at the end of the step, in `self.ux`.
-    fn meet(&mut self, system: &mut System, h: f64) -> bool {
-        let scale = 0.5 * h * h;
-        let n = system.rods.a.len();
-        // The mean over the step, as the positions see it, lies a third of the step after its start.
-        let ahead = if self.last == h { 1.0 / 3.0 } else { 0.0 };
-        let now = system.rods.lambda.iter().zip(&mut self.before);
-        for (((lambda, before), rhs), moved) in now.zip(&mut system.rhs).zip(&mut self.moved) {
-            *moved = scale * ahead * (lambda - *before);
-            *rhs = scale * lambda + *moved;
-            *before = *lambda;
-        }
-        self.moved[n..].fill(0.0);
-        for (rhs, lambda) in system.rhs[n..].chunks_exact_mut(2).zip(&system.pins.lambda) {
-            (rhs[0], rhs[1]) = (scale * lambda.x, scale * lambda.y);
-        }
-        system.push(&mut self.ux, &mut self.uy);
+    fn meet(&mut self, system: &mut System, weight: f64) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
-            let far = self.residual(system);
+            let far = system.position_error_after(&self.ux, &self.uy);
             if far <= self.tight || (far < ROUNDING && far > 0.5 * last) {
-                self.take_error(system);
+                let over = 1.0 / weight;
+                self.lambda.iter_mut().zip(&self.total).for_each(|(lambda, total)| *lambda = over * total);
                 return true;
             }
             if !(far < 0.9 * last) {
-                break;
+                return false;
             }
             last = far;
             system.matrix.solve(&mut system.rhs);
-            self.moved.iter_mut().zip(&system.rhs).for_each(|(sum, mu)| *sum += mu);
+            self.total.iter_mut().zip(&system.rhs).for_each(|(sum, mu)| *sum += mu);
             system.push(&mut self.ux, &mut self.uy);
         }
-        self.last = 0.0;
         false
     }
 
-    /// Writes −C at x + u to the right-hand side. Returns the largest |C| in parts of L².
-    fn residual(&mut self, system: &mut System) -> f64 {
-        let (rods, ux, uy) = (&system.rods, &self.ux, &self.uy);
-        let n = rods.a.len();
-        let mut largest = 0.0f64;
-        for (r, rhs) in system.rhs[..n].iter_mut().enumerate() {
-            let (a, b) = (rods.a[r] as usize, rods.b[r] as usize);
-            let (x, y) = (system.dx[r] + (ux[b] - ux[a]), system.dy[r] + (uy[b] - uy[a]));
-            let error = 0.5 * (x * x + y * y - rods.square[r]);
-            *rhs = -error;
-            let part = error.abs() / rods.square[r];
-            // Keeps a NaN.
-            largest = if part <= largest { largest } else { part };
+    /// The velocities at the end of a step, for forces that depend on them: from its middle on, with the acceleration of the step.
+    fn estimate_velocities(&self, system: &mut System, step: u32, h: f64) {
+        let over = 1.0 / h;
+        let nodes = &mut system.nodes;
+        let [px, py] = &self.before;
+        for (v, (u, before)) in [(&mut nodes.vx, (&self.ux, px)), (&mut nodes.vy, (&self.uy, py))] {
+            let share = if step == 0 { over } else { 0.5 * over };
+            for (v, (u, before)) in v.iter_mut().zip(u.iter().zip(before)) {
+                *v = over * u + share * (u - before);
+            }
         }
-        let nodes = &system.nodes;
-        for ((a, b), rhs) in system.pins.a.iter().zip(&system.pins.b).zip(system.rhs[n..].chunks_exact_mut(2)) {
-            let (a, b) = (*a as usize, *b as usize);
-            rhs[0] = (nodes.x[a] - nodes.x[b]) + (ux[a] - ux[b]);
-            rhs[1] = (nodes.y[a] - nodes.y[b]) + (uy[a] - uy[b]);
-            largest = largest.max(rhs[0].abs().max(rhs[1].abs()) / system.length);
-        }
-        largest
     }
 
-    /// What the iterations added to the prediction with the multipliers of the start is h³ x'''/6 of the constraints.
-    fn take_error(&mut self, system: &mut System) {
-        system.rhs.copy_from_slice(&self.moved);
-        let nodes = system.nodes.len();
-        self.load.clear();
-        self.load.resize(2 * nodes, 0.0);
-        let (x, y) = self.load.split_at_mut(nodes);
-        system.push(x, y);
-        self.error = self.load.iter().map(|e| e * e).sum();
-    }
-
-    /// The second half: forces and multipliers at the new positions.
-    fn finish(&mut self, system: &mut System, h: f64) {
-        system.factor_if_constrained();
+    /// Forces at the end of the first step. Returns an estimate of the step's error, RMS over the nodes [m].
+    ///
+    /// Half of x'''h³/6 is what the Verlet method leaves out: h² (a' − a)/6 of the forces, and of the constraints what u got beyond
+    /// the multipliers of the start.
+    fn renew_accelerations_and_tell(&mut self, system: &System, h: f64, damped: bool) -> f64 {
         let nodes = system.nodes.len();
         self.load.resize(2 * nodes, 0.0);
         let (bx, by) = self.load.split_at_mut(nodes);
         system.force_accelerations(bx, by);
         let sixth = h * h / 6.0;
-        let half = 0.5 * h;
-        for (a, b) in [(&mut self.ax, bx), (&mut self.ay, by)] {
-            for (a, b) in a.iter_mut().zip(b) {
-                let change = sixth * (*b - *a);
-                self.error += change * change;
-                *a = *b;
+        let constrained = !system.unconstrained() && !damped;
+        let mut sum = 0.0;
+        let [px, py] = &self.before;
+        for (a, b, u, before) in [(&mut self.ax, bx, &self.ux, px), (&mut self.ay, by, &self.uy, py)] {
+            for i in 0..nodes {
+                let mut change = sixth * (b[i] - a[i]);
+                if constrained {
+                    change += u[i] - before[i];
+                }
+                sum += change * change;
             }
+            a.copy_from_slice(b);
         }
+        0.5 * (sum / nodes as f64).sqrt()
+    }
+
+    /// Velocities and multipliers at the end.
+    fn finish(&mut self, system: &mut System, h: f64) {
+        let (over, half) = (1.0 / h, 0.5 * h);
         let nodes = &mut system.nodes;
-        for ((v, u), a) in nodes.vx.iter_mut().zip(&self.ux).zip(&self.ax) {
-            *v = u + half * a;
-        }
-        for ((v, u), a) in nodes.vy.iter_mut().zip(&self.uy).zip(&self.ay) {
-            *v = u + half * a;
+        for (v, (u, a)) in [(&mut nodes.vx, (&self.ux, &self.ax)), (&mut nodes.vy, (&self.uy, &self.ay))] {
+            for (v, (u, a)) in v.iter_mut().zip(u.iter().zip(a)) {
+                *v = over * u + half * a;
+            }
         }
         if !system.unconstrained() {
             system.project_velocities();
-            system.keep_multipliers(2.0 / h);
-            self.last = h;
+            system.keep_multipliers(2.0 * over);
         }
-        // Half of x'''h³/6 is what the Verlet method leaves out.
-        self.error = 0.5 * (self.error / system.nodes.len() as f64).sqrt();
     }
 }
 
+/// Projects what an edit has left off the constraints. Returns whether there is a position that meets them.
+fn meet(system: &mut System) -> bool {
+    if system.unconstrained() {
+        return true;
+    }
+    system.factor();
+    if !(system.position_error() <= FAR) {
+        return system.meet_constraints();
+    }
+    if !(system.velocity_error() <= ASTRAY) {
+        system.project_velocities();
+    }
+    true
+}
+
 impl Start {
-    fn keep(&mut self, system: &System, ax: &[f64], ay: &[f64]) {
+    fn keep(&mut self, system: &System) {
         let nodes = &system.nodes;
-        for (to, from) in [
-            (&mut self.x, &nodes.x[..]),
-            (&mut self.y, &nodes.y),
-            (&mut self.vx, &nodes.vx),
-            (&mut self.vy, &nodes.vy),
-            (&mut self.rods, &system.rods.lambda),
-            (&mut self.ax, ax),
-            (&mut self.ay, ay),
-        ] {
-            to.clear();
-            to.extend_from_slice(from);
+        for (to, from) in self.coordinates.iter_mut().zip([&nodes.x, &nodes.y, &nodes.vx, &nodes.vy]) {
+            to.clone_from(from);
         }
+        self.lambda.clone_from(&system.rods.lambda);
+        self.lambda.extend(system.pins.lambda.iter().flat_map(|lambda| [lambda.x, lambda.y]));
     }
 
-    /// Puts the island back, with the matrix factored there.
-    fn restore(&self, system: &mut System, ax: &mut [f64], ay: &mut [f64]) {
-        let nodes = &mut system.nodes;
-        nodes.x.copy_from_slice(&self.x);
-        nodes.y.copy_from_slice(&self.y);
-        nodes.vx.copy_from_slice(&self.vx);
-        nodes.vy.copy_from_slice(&self.vy);
-        system.rods.lambda.copy_from_slice(&self.rods);
-        ax.copy_from_slice(&self.ax);
-        ay.copy_from_slice(&self.ay);
-        system.factor_if_constrained();
+    fn restore(&self, system: &mut System) {
+        for (to, from) in system.nodes.coordinates().into_iter().zip(&self.coordinates) {
+            to.copy_from_slice(from);
+        }
     }
 }

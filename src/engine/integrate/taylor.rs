@@ -16,8 +16,11 @@
 //! Cost of a step of order P: P solves and about P² multiply-adds a rod, 6 P² a spring. It does not damp; stiff springs and
 //! very tense light ropes need many steps.
 
+mod turning;
+
+use self::turning::TurningSeries;
+use super::events::{Event, Series};
 use super::outcome::Outcome;
-use super::rope_events::Event;
 use crate::engine::island::System;
 use crate::engine::island::system::push;
 use glam::DVec2;
@@ -39,6 +42,9 @@ pub(crate) struct Taylor {
     lambda: Vec<Vec<f64>>,
     springs: SpringSeries,
     grip: GripSeries,
+    turning: TurningSeries,
+    /// Of nodes, rods, rows and springs that there is room for.
+    sizes: [usize; 4],
     fx: Vec<f64>,
     fy: Vec<f64>,
     gx: Vec<f64>,
@@ -64,14 +70,17 @@ struct GripSeries {
     u: Vec<DVec2>,
     square: Vec<f64>,
     inverse: Vec<f64>,
-    /// Whether the bound is reached in this step.
-    bounded: bool,
 }
 
 impl Taylor {
     /// Makes room for an island of `nodes`, `rods`, `rows` and `springs`.
     pub fn reserve(&mut self, system: &System) {
+        self.turning.reserve(system);
         let (nodes, rods) = (system.nodes.len(), system.rods.a.len());
+        let sizes = [nodes, rods, system.rhs.len(), system.springs.len()];
+        if std::mem::replace(&mut self.sizes, sizes) == sizes {
+            return;
+        }
         let room = |series: &mut Vec<Vec<f64>>, n: usize| {
             series.resize_with(HIGHEST_ORDER + 1, Vec::new);
             series.iter_mut().for_each(|values| values.resize(n, 0.0));
@@ -106,11 +115,15 @@ impl Taylor {
         let highest = highest_order(tolerance / system.length);
         let mut left = time;
         let mut events = 0;
+        let mut decided = false;
         if !system.meet_constraints() {
             outcome.failed = true;
             return outcome;
         }
         while left > 0.0 {
+            if !decided {
+                system.see_bound();
+            }
             self.expand_first(system, left);
             let order = self.expand(system, left, tolerance, highest);
             let mut part = self.step_part(order, tolerance);
@@ -127,7 +140,10 @@ impl Taylor {
                 outcome.failed = true;
                 return outcome;
             };
-            if let Some((_, event)) = event.filter(|(at, _)| *at == part) {
+            let event = event.filter(|(at, _)| *at == part);
+            // At the root itself rounding would decide on which side of its bound the hold is.
+            decided = matches!(event, Some((_, Event::Hold { .. })));
+            if let Some((_, event)) = event {
                 event.apply(system);
             }
             outcome.steps += 1;
@@ -187,11 +203,11 @@ impl Taylor {
         self.dx[0].clone_from(&system.dx);
         self.dy[0].clone_from(&system.dy);
         self.take_differences(system, 1);
+        if system.turns() {
+            self.turning.expand_first(system, scale);
+        }
         self.springs.take_differences(system, &self.x, &self.y, 0);
         self.springs.take_differences(system, &self.x, &self.y, 1);
-        if let Some(held) = &system.held {
-            self.grip.bounded = held.unbounded(nodes).length() > held.most;
-        }
     }
 
     /// All further coefficients; returns the order at which to stop.
@@ -227,6 +243,9 @@ impl Taylor {
         if system.held.is_some() {
             self.add_grip(system, scale, k);
         }
+        if system.turns() {
+            self.gather_turning(system, scale, k);
+        }
         // From forces to accelerations.
         for (((fx, fy), w), free) in self.fx.iter_mut().zip(&mut self.fy).zip(&nodes.w).zip(&nodes.free) {
             *fx *= w;
@@ -243,12 +262,18 @@ impl Taylor {
                 self.fy[i] -= free * rate * self.y[k + 1][i];
             }
         }
+        if system.turns() {
+            self.know_turning(system, k);
+        }
         if !system.unconstrained() {
             self.constrain(system, k);
         }
         let over = 1.0 / ((k + 1) * (k + 2)) as f64;
         for (to, f) in self.x[k + 2].iter_mut().zip(&self.fx).chain(self.y[k + 2].iter_mut().zip(&self.fy)) {
             *to = over * f;
+        }
+        if system.turns() {
+            self.finish_turning(system, k);
         }
         self.take_differences(system, k + 2);
         self.springs.take_differences(system, &self.x, &self.y, k + 2);
@@ -258,23 +283,10 @@ impl Taylor {
     fn constrain(&mut self, system: &mut System, k: usize) {
         let rods = &system.rods;
         let n = rods.a.len();
-        // What is known of the multipliers' forces: Σ_{j=1}^{k} d_j λ_{k−j}.
-        if k > 0 && n > 0 {
-            self.gx.fill(0.0);
-            self.gy.fill(0.0);
-            for j in 1..=k {
-                add_product(&mut self.gx, &self.dx[j], &self.lambda[k - j]);
-                add_product(&mut self.gy, &self.dy[j], &self.lambda[k - j]);
-            }
-            let ends = rods.a.iter().zip(&rods.b);
-            for ((((a, b), gx), gy), _) in ends.zip(&self.gx).zip(&self.gy).zip(0..n) {
-                let (a, b) = (*a as usize, *b as usize);
-                let (wa, wb) = (system.nodes.w[a], system.nodes.w[b]);
-                self.fx[a] -= wa * gx;
-                self.fy[a] -= wa * gy;
-                self.fx[b] += wb * gx;
-                self.fy[b] += wb * gy;
-            }
+        if k > 0 && n > 0 && !system.turns() {
+            self.know_pulls(k);
+            rods.pairs.add_weighted(&system.nodes.w, &self.gx, &mut self.fx);
+            rods.pairs.add_weighted(&system.nodes.w, &self.gy, &mut self.fy);
         }
         // −½ N (N−1) Σ_{0<j<N} d_j·d_{N−j} − d₀·(a_b − a_a)
         let order = k + 2;
@@ -306,14 +318,27 @@ impl Taylor {
             rhs[1] = self.fy[a] - self.fy[b];
         }
         system.matrix.solve(rhs);
+        if system.turns() {
+            return self.push_turning(system, k);
+        }
         let d = (&system.dx[..], &system.dy[..]);
         push(&system.nodes.w, &system.rods, &system.pins, d, rhs, &mut self.fx, &mut self.fy);
     }
 
+    /// What is known of the rods' pulls by their multipliers: Σ_{j=1}^{k} d_j λ_{k−j}.
+    fn know_pulls(&mut self, k: usize) {
+        self.gx.fill(0.0);
+        self.gy.fill(0.0);
+        for j in 1..=k {
+            add_product(&mut self.gx, &self.dx[j], &self.lambda[k - j]);
+            add_product(&mut self.gy, &self.dy[j], &self.lambda[k - j]);
+        }
+    }
+
     /// d_k of the rods.
     fn take_differences(&mut self, system: &System, k: usize) {
-        differences(&system.rods.a, &system.rods.b, &self.x[k], &mut self.dx[k]);
-        differences(&system.rods.a, &system.rods.b, &self.y[k], &mut self.dy[k]);
+        system.rods.pairs.differences(&self.x[k], &mut self.dx[k]);
+        system.rods.pairs.differences(&self.y[k], &mut self.dy[k]);
     }
 
     /// Adds coefficient k of the mouse's force, times the scale squared.
@@ -324,7 +349,7 @@ impl Taylor {
         let away = if k == 0 { at(0) - held.target } else { at(k) };
         grip.u[k] = -held.stiffness * away - held.damping / scale * (k + 1) as f64 * at(k + 1);
         let mut force = grip.u[k];
-        if grip.bounded {
+        if held.bounded {
             grip.square[k] = (0..=k).map(|j| grip.u[j].dot(grip.u[k - j])).sum();
             grip.inverse[k] = if k == 0 {
                 1.0 / grip.square[0].sqrt()
@@ -341,7 +366,7 @@ impl Taylor {
     /// Largest contribution of the term of this order at the end of the time scale [m].
     fn last_term(&self, order: usize) -> f64 {
         let largest = |values: &[f64]| values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        largest(&self.x[order]).max(largest(&self.y[order]))
+        largest(&self.x[order]).max(largest(&self.y[order])).max(self.turning.last_term(order))
     }
 
     /// The part of the time scale that the last two terms allow; the time left is cut into equal steps.
@@ -360,6 +385,9 @@ impl Taylor {
         horner(&self.y, order, part, &mut system.nodes.y);
         horner_rate(&self.x, order, part, scale, &mut system.nodes.vx);
         horner_rate(&self.y, order, part, scale, &mut system.nodes.vy);
+        if system.turns() {
+            self.turning.evaluate(system, order, part, scale);
+        }
         if system.unconstrained() {
             return;
         }
@@ -376,10 +404,11 @@ impl Taylor {
 
     /// The first event up to `part`.
     fn first_event(&self, system: &System, order: usize, part: f64) -> Option<(f64, Event)> {
-        let series = super::rope_events::Series {
+        let series = Series {
             dx: &self.dx[..=order],
             dy: &self.dy[..=order],
             lambda: &self.lambda[..=order - 2],
+            hold: &self.grip.u[..=order - 2],
         };
         series.first_event(system, part)
     }
@@ -387,8 +416,8 @@ impl Taylor {
 
 impl SpringSeries {
     fn take_differences(&mut self, system: &System, x: &[Vec<f64>], y: &[Vec<f64>], k: usize) {
-        differences(&system.springs.a, &system.springs.b, &x[k], &mut self.dx[k]);
-        differences(&system.springs.a, &system.springs.b, &y[k], &mut self.dy[k]);
+        system.springs.pairs.differences(&x[k], &mut self.dx[k]);
+        system.springs.pairs.differences(&y[k], &mut self.dy[k]);
     }
 
     /// Adds coefficient k of the springs' forces, times the scale squared.
@@ -419,10 +448,7 @@ impl SpringSeries {
             for j in 0..=k {
                 add_product(&mut self.sum, &self.factor[j], &d[k - j]);
             }
-            for ((a, b), force) in springs.a.iter().zip(&springs.b).zip(&self.sum) {
-                f[*a as usize] -= force;
-                f[*b as usize] += force;
-            }
+            springs.pairs.add(&self.sum, f);
         }
     }
 
@@ -482,13 +508,6 @@ fn highest_order(tolerance: f64) -> usize {
 fn add_product(to: &mut [f64], a: &[f64], b: &[f64]) {
     for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
         *to += a * b;
-    }
-}
-
-#[inline]
-fn differences(a: &[u32], b: &[u32], x: &[f64], to: &mut [f64]) {
-    for ((a, b), to) in a.iter().zip(b).zip(to) {
-        *to = x[*b as usize] - x[*a as usize];
     }
 }
 

@@ -1,7 +1,11 @@
 //! Accelerations of an island at an instant, and how fast it can swing.
 
 use super::System;
+use super::lanes::Largest;
 use glam::DVec2;
+
+/// Rods that are worked off side by side.
+const SIDE: usize = 32;
 
 /// How fast the parts of an island move, for choosing a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,12 +19,15 @@ pub(crate) struct Rates {
 impl System {
     /// Accelerations by the forces, without those of the constraints, at the present positions and velocities [m/s²].
     pub fn force_accelerations(&self, ax: &mut [f64], ay: &mut [f64]) {
+        let nodes = &self.nodes;
+        if self.springs.len() == 0 && self.held.is_none() && self.drag == 0.0 {
+            ax.iter_mut().zip(&nodes.free).for_each(|(a, free)| *a = free * self.gravity.x);
+            ay.iter_mut().zip(&nodes.free).for_each(|(a, free)| *a = free * self.gravity.y);
+            return;
+        }
         ax.fill(0.0);
         ay.fill(0.0);
-        if self.springs.len() > 0 {
-            self.springs.add_forces(&self.nodes, ax, ay);
-        }
-        let nodes = &self.nodes;
+        self.springs.add_forces(nodes, ax, ay);
         if let Some(held) = &self.held {
             let force = held.force(nodes);
             ax[held.node] += force.x;
@@ -43,11 +50,20 @@ impl System {
         }
         let (nodes, rods) = (&self.nodes, &self.rods);
         let n = rods.a.len();
-        for (r, rhs) in self.rhs[..n].iter_mut().enumerate() {
-            let (a, b) = (rods.a[r] as usize, rods.b[r] as usize);
-            let (vx, vy) = (nodes.vx[b] - nodes.vx[a], nodes.vy[b] - nodes.vy[a]);
-            let along = self.dx[r] * (ax[b] - ax[a]) + self.dy[r] * (ay[b] - ay[a]);
-            *rhs = -along - vx * vx - vy * vy;
+        let [mut vx, mut vy, mut bx, mut by] = [[0.0; SIDE]; 4];
+        for block in rods.pairs.blocks::<SIDE>() {
+            let range = block.range();
+            let n = range.len();
+            for (from, to) in [(&nodes.vx[..], &mut vx), (&nodes.vy, &mut vy), (ax, &mut bx), (ay, &mut by)] {
+                block.differences(from, &mut to[..n]);
+            }
+            let (dx, dy, rhs) = (&self.dx[range.clone()][..n], &self.dy[range.clone()][..n], &mut self.rhs[range][..n]);
+            for k in 0..n {
+                rhs[k] = -(dx[k] * bx[k] + dy[k] * by[k]) - vx[k] * vx[k] - vy[k] * vy[k];
+            }
+        }
+        for (rhs, held) in self.rhs[..n].iter_mut().zip(&rods.held).skip(rods.first_rope) {
+            *rhs = if *held { *rhs } else { 0.0 };
         }
         for ((a, b), rhs) in self.pins.a.iter().zip(&self.pins.b).zip(self.rhs[n..].chunks_exact_mut(2)) {
             let (a, b) = (*a as usize, *b as usize);
@@ -82,13 +98,21 @@ impl System {
         load.clear();
         load.resize(2 * nodes.len(), 0.0);
         let (x, y) = load.split_at_mut(nodes.len());
-        let mut turn = 0.0f64;
-        for (r, lambda) in self.rods.lambda.iter().enumerate() {
-            let (a, b) = (self.rods.a[r] as usize, self.rods.b[r] as usize);
-            x[a] += lambda.abs();
-            x[b] += lambda.abs();
-            let (vx, vy) = (nodes.vx[b] - nodes.vx[a], nodes.vy[b] - nodes.vy[a]);
-            turn = turn.max((vx * vx + vy * vy) / self.rods.square[r]);
+        let [mut vx, mut vy, mut turn] = [[0.0; SIDE], [0.0; SIDE], [0.0; SIDE]];
+        let mut fastest = Largest::default();
+        for block in self.rods.pairs.blocks::<SIDE>() {
+            let range = block.range();
+            let n = range.len();
+            let (vx, vy, turn) = (&mut vx[..n], &mut vy[..n], &mut turn[..n]);
+            block.differences(&nodes.vx, vx);
+            block.differences(&nodes.vy, vy);
+            let (lambda, square) = (&self.rods.lambda[range.clone()][..n], &self.rods.square[range][..n]);
+            for k in 0..n {
+                turn[k] = (vx[k] * vx[k] + vy[k] * vy[k]) / square[k];
+                vx[k] = lambda[k].abs();
+            }
+            fastest.take(turn);
+            block.add_to_both(vx, x);
         }
         if let Some(held) = &self.held {
             x[held.node] += 0.5 * held.stiffness;
@@ -107,7 +131,7 @@ impl System {
             }
             swing = swing.max(largest(&nodes.w, x)).max(self.drag);
         }
-        Rates { swing, turn: turn.sqrt() }
+        Rates { swing, turn: fastest.value().sqrt() }
     }
 }
 

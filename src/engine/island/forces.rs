@@ -1,16 +1,22 @@
 //! Forces of an island: springs with dampers, the mouse's hold, gravity and drag.
 
 use super::Nodes;
+use super::pairs::Pairs;
 use crate::engine::constraint::Grip;
 use crate::engine::world::World;
 use glam::DVec2;
 use std::f64::consts::TAU;
+
+/// Springs that are worked off side by side.
+const SIDE: usize = 32;
 
 /// Springs between nodes: force k (|d| − rest) + c d|d|/dt, pulling.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Springs {
     pub a: Vec<u32>,
     pub b: Vec<u32>,
+    /// The same, for loops over all; made by [`Springs::finish`].
+    pub pairs: Pairs,
     /// [m]
     pub rest: Vec<f64>,
     /// [N/m]
@@ -32,6 +38,11 @@ impl Springs {
         self.damping.push(damping);
         self.constraint.push(constraint);
         self.damped |= damping > 0.0;
+    }
+
+    /// Finds the runs among the springs, once all are in.
+    pub fn finish(&mut self) {
+        self.pairs = Pairs::new(&self.a, &self.b);
     }
 
     pub fn len(&self) -> usize {
@@ -71,61 +82,77 @@ impl Springs {
         }
     }
 
-    /// The same without dampers: differences are gathered for some springs, their factors found side by side, and the forces
-    /// scattered.
+    /// The same without dampers, some springs side by side.
     fn add_elastic_forces(&self, nodes: &Nodes, fx: &mut [f64], fy: &mut [f64]) {
-        const SIDE: usize = 32;
-        let (mut dx, mut dy, mut factor) = ([0.0; SIDE], [0.0; SIDE], [0.0; SIDE]);
-        let chunks = self.a.chunks(SIDE).zip(self.b.chunks(SIDE));
-        let laws = self.rest.chunks(SIDE).zip(self.stiffness.chunks(SIDE));
-        for ((a, b), (rest, stiffness)) in chunks.zip(laws) {
-            for (((dx, dy), a), b) in dx.iter_mut().zip(&mut dy).zip(a).zip(b) {
-                *dx = nodes.x[*b as usize] - nodes.x[*a as usize];
-                *dy = nodes.y[*b as usize] - nodes.y[*a as usize];
+        let (mut dx, mut dy) = ([0.0; SIDE], [0.0; SIDE]);
+        for block in self.pairs.blocks::<SIDE>() {
+            let range = block.range();
+            let n = range.len();
+            let (dx, dy) = (&mut dx[..n], &mut dy[..n]);
+            block.differences(&nodes.x, dx);
+            block.differences(&nodes.y, dy);
+            let (rest, stiffness) = (&self.rest[range.clone()][..n], &self.stiffness[range][..n]);
+            for i in 0..n {
+                let square = dx[i] * dx[i] + dy[i] * dy[i];
+                let pull = stiffness[i] * (rest[i] / square.sqrt() - 1.0);
+                // Coinciding ends have no direction.
+                let factor = if square > 0.0 { pull } else { 0.0 };
+                (dx[i], dy[i]) = (factor * dx[i], factor * dy[i]);
             }
-            for ((((factor, dx), dy), rest), k) in factor.iter_mut().zip(&dx).zip(&dy).zip(rest).zip(stiffness) {
-                let square: f64 = dx * dx + dy * dy;
-                let pull = k * (rest / square.sqrt() - 1.0);
-                *factor = if square > 0.0 { pull } else { 0.0 };
-            }
-            for ((((factor, dx), dy), a), b) in factor.iter().zip(&dx).zip(&dy).zip(a).zip(b) {
-                let (a, b) = (*a as usize, *b as usize);
-                let (px, py) = (factor * dx, factor * dy);
-                fx[a] -= px;
-                fy[a] -= py;
-                fx[b] += px;
-                fy[b] += py;
-            }
+            block.add(dx, fx);
+            block.add(dy, fy);
         }
     }
 
     /// Adds the absolute values of the stiffness matrix by rows, half of them: for each end's x and y [N/m].
     pub fn add_loads(&self, nodes: &Nodes, x: &mut [f64], y: &mut [f64]) {
-        for (i, (a, b)) in self.a.iter().zip(&self.b).enumerate() {
-            let (a, b) = (*a as usize, *b as usize);
-            let (dx, dy) = (nodes.x[b] - nodes.x[a], nodes.y[b] - nodes.y[a]);
-            let square = dx * dx + dy * dy;
-            if square > 0.0 {
-                let (k, cross) = (self.stiffness[i], (dx * dy).abs());
-                let inverse = 1.0 / square;
-                let tension = k * (1.0 - self.rest[i] * inverse.sqrt()).abs();
-                let over = k * inverse;
-                let (along_x, along_y) = (over * (dx * dx + cross) + tension, over * (dy * dy + cross) + tension);
-                x[a] += along_x;
-                x[b] += along_x;
-                y[a] += along_y;
-                y[b] += along_y;
+        let (mut dx, mut dy) = ([0.0; SIDE], [0.0; SIDE]);
+        for block in self.pairs.blocks::<SIDE>() {
+            let range = block.range();
+            let n = range.len();
+            let (dx, dy) = (&mut dx[..n], &mut dy[..n]);
+            block.differences(&nodes.x, dx);
+            block.differences(&nodes.y, dy);
+            let (rest, stiffness) = (&self.rest[range.clone()][..n], &self.stiffness[range][..n]);
+            for i in 0..n {
+                let (xx, yy, xy) = (dx[i] * dx[i], dy[i] * dy[i], (dx[i] * dy[i]).abs());
+                let square = xx + yy;
+                let k = stiffness[i];
+                let tension = k * (1.0 - rest[i] / square.sqrt()).abs();
+                let over = k / square;
+                let (along_x, along_y) = (over * (xx + xy) + tension, over * (yy + xy) + tension);
+                (dx[i], dy[i]) = if square > 0.0 { (along_x, along_y) } else { (0.0, 0.0) };
             }
+            block.add_to_both(dx, x);
+            block.add_to_both(dy, y);
         }
     }
 
     /// Writes the springs' forces, as multipliers (λ, 0) [N].
     pub fn store(&self, nodes: &Nodes, force: &mut [DVec2]) {
-        for (i, constraint) in self.constraint.iter().enumerate() {
-            let (a, b) = (self.a[i] as usize, self.b[i] as usize);
-            let (dx, dy) = (nodes.x[b] - nodes.x[a], nodes.y[b] - nodes.y[a]);
-            let length = (dx * dx + dy * dy).sqrt();
-            force[*constraint as usize] = DVec2::new(self.factor(i, (dx, dy), nodes) * length, 0.0);
+        let (mut dx, mut dy) = ([0.0; SIDE], [0.0; SIDE]);
+        for block in self.pairs.blocks::<SIDE>() {
+            let range = block.range();
+            let n = range.len();
+            let (dx, dy) = (&mut dx[..n], &mut dy[..n]);
+            block.differences(&nodes.x, dx);
+            block.differences(&nodes.y, dy);
+            let (rest, stiffness) = (&self.rest[range.clone()][..n], &self.stiffness[range.clone()][..n]);
+            if self.damped {
+                let first = range.start;
+                (0..n).for_each(|i| {
+                    let length = (dx[i] * dx[i] + dy[i] * dy[i]).sqrt();
+                    dx[i] = self.factor(first + i, (dx[i], dy[i]), nodes) * length;
+                });
+            } else {
+                for i in 0..n {
+                    let square = dx[i] * dx[i] + dy[i] * dy[i];
+                    dx[i] = if square > 0.0 { stiffness[i] * (rest[i] - square.sqrt()) } else { 0.0 };
+                }
+            }
+            for (constraint, lambda) in self.constraint[range].iter().zip(dx) {
+                force[*constraint as usize] = DVec2::new(*lambda, 0.0);
+            }
         }
     }
 }
@@ -141,21 +168,23 @@ pub(crate) struct Held {
     pub damping: f64,
     /// [N]
     pub most: f64,
+    /// Whether the bound acts, as long as a series holds.
+    pub bounded: bool,
 }
 
 impl Held {
-    /// The world's hold, if it is on a node that can be pushed.
-    pub fn of(world: &World, nodes: &Nodes) -> Option<Held> {
+    /// The world's hold, if it is on a node that can be pushed; `point` is the node that it holds in place of a centre, if it does.
+    pub fn of(world: &World, nodes: &Nodes, point: Option<usize>) -> Option<Held> {
         let grip = world.grip.as_ref()?;
         let body = world.bodies.index_of(grip.body)?;
         let node = nodes.body.iter().position(|b| *b == body as u32)?;
-        (nodes.w[node] > 0.0).then(|| Held::new(grip, node, world.bodies.mass[body]))
+        (nodes.w[node] > 0.0).then(|| Held::new(grip, point.unwrap_or(node), world.bodies.mass[body]))
     }
 
     fn new(grip: &Grip, node: usize, mass: f64) -> Held {
         let omega = TAU * grip.frequency;
         let (stiffness, damping) = (mass * omega * omega, 2.0 * grip.damping_ratio * mass * omega);
-        Held { node, target: grip.target, stiffness, damping, most: grip.max_force }
+        Held { node, target: grip.target, stiffness, damping, most: grip.max_force, bounded: false }
     }
 
     /// Spring and damper without the bound [N].

@@ -41,6 +41,8 @@ pub(crate) struct Matrix {
     rod_pin: Vec<RodPin>,
     /// Diagonal blocks ± w 1 of two pins with a common node.
     pin_pin: Vec<(u32, f64)>,
+    /// ± inverse masses between neighbours, where the rows are one chain in their order: the matrix is then filled by a plain loop.
+    chain: Vec<f64>,
     /// What solves in place of the sparse LDLᵀ, if something does.
     pub linear: Option<Box<Linear>>,
 }
@@ -90,12 +92,53 @@ impl Matrix {
                 (true, true) => matrix.pin_pin.push((slot, weight)),
             }
         }
+        matrix.chain = matrix.find_chain();
         matrix
+    }
+
+    /// A matrix whose values others fill in, analysed already; `entries` as for [`Linear::new`].
+    pub fn of_entries(
+        ldl: Ldl,
+        summary: Summary,
+        (solver, iterations): (LinearSolver, u32),
+        rows: usize,
+        entries: Vec<Entry>,
+    ) -> Matrix {
+        let other =
+            (solver != LinearSolver::SparseLdl).then(|| Box::new(Linear::new(solver, iterations, rows, entries)));
+        Matrix { ldl, summary, linear: other, ..Matrix::default() }
+    }
+
+    /// The weights of [`Matrix::chain`], none if the rows are no chain of rods in their order.
+    fn find_chain(&self) -> Vec<f64> {
+        let n = self.diagonal.len();
+        let in_place = |(k, entry): (usize, &(u32, f64))| entry.0 as usize == k;
+        let follows =
+            |(k, pair): (usize, &RodRod)| (pair.slot as usize, pair.r as usize, pair.s as usize) == (n + k, k, k + 1);
+        let chain = self.pin_diagonal.is_empty()
+            && n > 1
+            && self.rod_rod.len() + 1 == n
+            && self.diagonal.iter().enumerate().all(in_place)
+            && self.rod_rod.iter().enumerate().all(follows);
+        if chain { self.rod_rod.iter().map(|pair| pair.weight).collect() } else { Vec::new() }
+    }
+
+    fn fill_chain(&mut self, dx: &[f64], dy: &[f64]) {
+        let n = self.diagonal.len();
+        let (diagonal, off) = self.ldl.values_mut().split_at_mut(n);
+        let (dx, dy, entries) = (&dx[..n], &dy[..n], &self.diagonal[..n]);
+        for k in 0..n {
+            diagonal[k] = entries[k].1 * (dx[k] * dx[k] + dy[k] * dy[k]);
+        }
+        let (off, chain) = (&mut off[..n - 1], &self.chain[..n - 1]);
+        for k in 0..n - 1 {
+            off[k] = chain[k] * (dx[k] * dx[k + 1] + dy[k] * dy[k + 1]);
+        }
     }
 
     /// Whether the pattern is known.
     pub fn analysed(&self) -> bool {
-        !self.diagonal.is_empty() || !self.pin_diagonal.is_empty()
+        self.summary.rows > 0
     }
 
     /// All entries, of both triangles: rows of rods, then two a pin, whose blocks have no entries off their diagonals.
@@ -125,8 +168,8 @@ impl Matrix {
         entries
     }
 
-    /// Fills in the values for differences d of the rods, and factors.
-    pub fn factor(&mut self, rods: &Rods, dx: &[f64], dy: &[f64]) {
+    /// The values for differences d of the rods.
+    fn fill(&mut self, rods: &Rods, dx: &[f64], dy: &[f64]) {
         let ropes = rods.first_rope < rods.a.len();
         let values = self.ldl.values_mut();
         values.fill(0.0);
@@ -159,6 +202,25 @@ impl Matrix {
             values[*slot as usize] += weight;
             values[*slot as usize + 3] += weight;
         }
+    }
+
+    /// Fills in the values for differences d of the rods, and factors.
+    pub fn factor(&mut self, rods: &Rods, dx: &[f64], dy: &[f64]) {
+        if self.chain.is_empty() || rods.first_rope < rods.a.len() {
+            self.fill(rods, dx, dy);
+        } else {
+            self.fill_chain(dx, dy);
+        }
+        self.factor_values();
+    }
+
+    /// Fills the values in by `fill`, and factors.
+    pub fn refactor(&mut self, fill: impl FnOnce(&mut [f64])) {
+        fill(self.ldl.values_mut());
+        self.factor_values();
+    }
+
+    fn factor_values(&mut self) {
         self.pivots = match &mut self.linear {
             Some(linear) => Pivots { dropped: linear.factor(self.ldl.values()), ..Pivots::default() },
             None => self.ldl.factor(),

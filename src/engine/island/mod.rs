@@ -4,16 +4,19 @@
 //! under [`crate::engine::integrate`] keep their full order. An island is a copy of its bodies in arrays of coordinates,
 //! made for a plan and filled anew in every step.
 
-mod accelerations;
+pub(crate) mod accelerations;
 pub(crate) mod forces;
+pub(crate) mod lanes;
 pub(crate) mod linear;
 pub(crate) mod matrix;
 mod near;
 pub(crate) mod nodes;
+pub(crate) mod pairs;
 pub(crate) mod partition;
 pub(crate) mod projection;
 mod ropes;
 pub(crate) mod system;
+pub(crate) mod turning;
 
 mod stepping;
 

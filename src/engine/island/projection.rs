@@ -4,6 +4,7 @@
 //! O(e²); a velocity that does not fit (an edit, a rope that tightens) is what an inelastic hit would leave.
 
 use super::System;
+use super::lanes::Largest;
 
 /// C is worth a pass of its own, with a new matrix, above this part of L².
 const FAR: f64 = 1e-6;
@@ -32,13 +33,20 @@ impl System {
 
     /// Writes −C to the right-hand side. Returns the largest |C| in parts of L².
     pub fn position_error(&mut self) -> f64 {
-        let mut largest: f64 = 0.0;
         let rods = &self.rods;
-        for (r, rhs) in self.rhs.iter_mut().enumerate().take(rods.a.len()) {
-            let error = 0.5 * (self.dx[r] * self.dx[r] + self.dy[r] * self.dy[r] - rods.square[r]);
-            *rhs = if rods.held[r] { -error } else { 0.0 };
-            largest = largest.max(rhs.abs() / rods.square[r]);
+        let n = rods.a.len();
+        let (dx, dy, square) = (&self.dx[..n], &self.dy[..n], &rods.square[..n]);
+        let (size, rhs) = (&mut self.scratch[0][..n], &mut self.rhs[..n]);
+        for k in 0..n {
+            rhs[k] = 0.5 * (square[k] - (dx[k] * dx[k] + dy[k] * dy[k]));
+            size[k] = rhs[k].abs() / square[k];
         }
+        for (r, _) in rods.held.iter().enumerate().skip(rods.first_rope).filter(|(_, held)| !**held) {
+            (rhs[r], size[r]) = (0.0, 0.0);
+        }
+        let mut sizes = Largest::default();
+        sizes.take(size);
+        let mut largest = sizes.value();
         let square = self.length * self.length;
         let rows = self.rhs[rods.a.len()..].chunks_exact_mut(2);
         for ((a, b), rhs) in self.pins.a.iter().zip(&self.pins.b).zip(rows) {
@@ -50,35 +58,68 @@ impl System {
         largest
     }
 
+    /// Writes −C for nodes that have moved by u to the right-hand side. Returns the largest |C| in parts of L², NaN if one of them is.
+    pub fn position_error_after(&mut self, ux: &[f64], uy: &[f64]) -> f64 {
+        let rods = &self.rods;
+        let n = rods.a.len();
+        let [ex, ey] = &mut self.scratch;
+        rods.pairs.differences(ux, ex);
+        rods.pairs.differences(uy, ey);
+        let (dx, dy, square) = (&self.dx[..n], &self.dy[..n], &rods.square[..n]);
+        let (ex, ey, rhs) = (&mut ex[..n], &ey[..n], &mut self.rhs[..n]);
+        for k in 0..n {
+            let (x, y) = (dx[k] + ex[k], dy[k] + ey[k]);
+            let error = 0.5 * (square[k] - (x * x + y * y));
+            rhs[k] = error;
+            ex[k] = error.abs() / square[k];
+        }
+        let mut largest = Largest::default();
+        largest.take(ex);
+        let nodes = &self.nodes;
+        let rows = self.rhs[rods.a.len()..].chunks_exact_mut(2);
+        for ((a, b), rhs) in self.pins.a.iter().zip(&self.pins.b).zip(rows) {
+            let (a, b) = (*a as usize, *b as usize);
+            rhs[0] = (nodes.x[a] - nodes.x[b]) + (ux[a] - ux[b]);
+            rhs[1] = (nodes.y[a] - nodes.y[b]) + (uy[a] - uy[b]);
+            largest.take(&[rhs[0].abs() / self.length, rhs[1].abs() / self.length]);
+        }
+        largest.value()
+    }
+
     /// Takes the part of the velocities away that breaks the constraints.
     pub fn project_velocities(&mut self) {
         self.velocity_error();
         self.matrix.solve(&mut self.rhs);
-        let (mut vx, mut vy) = (std::mem::take(&mut self.nodes.vx), std::mem::take(&mut self.nodes.vy));
-        self.push(&mut vx, &mut vy);
-        (self.nodes.vx, self.nodes.vy) = (vx, vy);
+        self.push_velocities();
     }
 
-    /// Writes −J v to the right-hand side.
-    pub fn velocity_error(&mut self) {
+    /// Writes −J v to the right-hand side. Returns the largest entry in parts of what the largest velocity could bring about, NaN if
+    /// one of them is.
+    pub fn velocity_error(&mut self) -> f64 {
         let (rods, nodes) = (&self.rods, &self.nodes);
-        for (r, rhs) in self.rhs.iter_mut().enumerate().take(rods.a.len()) {
-            let (a, b) = (rods.a[r] as usize, rods.b[r] as usize);
-            let speed = self.dx[r] * (nodes.vx[b] - nodes.vx[a]) + self.dy[r] * (nodes.vy[b] - nodes.vy[a]);
-            *rhs = if rods.held[r] { -speed } else { 0.0 };
+        let n = rods.a.len();
+        let [vx, vy] = &mut self.scratch;
+        rods.pairs.differences(&nodes.vx, vx);
+        rods.pairs.differences(&nodes.vy, vy);
+        let (dx, dy, square) = (&self.dx[..n], &self.dy[..n], &rods.square[..n]);
+        let (vx, vy, rhs) = (&mut vx[..n], &vy[..n], &mut self.rhs[..n]);
+        for k in 0..n {
+            rhs[k] = -(dx[k] * vx[k] + dy[k] * vy[k]);
+            vx[k] = rhs[k] * rhs[k] / square[k];
+        }
+        let mut largest = Largest::default();
+        largest.take(vx);
+        for (rhs, held) in self.rhs.iter_mut().zip(&rods.held).skip(rods.first_rope) {
+            *rhs = if *held { *rhs } else { 0.0 };
         }
         let rows = self.rhs[rods.a.len()..].chunks_exact_mut(2);
         for ((a, b), rhs) in self.pins.a.iter().zip(&self.pins.b).zip(rows) {
             let (a, b) = (*a as usize, *b as usize);
             rhs[0] = nodes.vx[a] - nodes.vx[b];
             rhs[1] = nodes.vy[a] - nodes.vy[b];
+            largest.take(&[rhs[0] * rhs[0], rhs[1] * rhs[1]]);
         }
-    }
-
-    /// x += M⁻¹ Jᵀ rhs.
-    pub fn move_nodes(&mut self) {
-        let (mut x, mut y) = (std::mem::take(&mut self.nodes.x), std::mem::take(&mut self.nodes.y));
-        self.push(&mut x, &mut y);
-        (self.nodes.x, self.nodes.y) = (x, y);
+        let most = largest.value().sqrt();
+        if most == 0.0 { 0.0 } else { most / nodes.fastest() }
     }
 }

@@ -30,7 +30,7 @@ impl System {
     /// Takes those ropes in force that have reached their length and do not come together. What it decides follows from
     /// positions and velocities alone; a rope that it holds wrongly would push, and is let go for that.
     fn tighten(&mut self) {
-        let speed = self.nodes.vx.iter().chain(&self.nodes.vy).fold(0.0f64, |m, v| m.max(v.abs()));
+        let speed = self.nodes.fastest();
         for r in self.ropes() {
             let (a, b) = (self.rods.a[r] as usize, self.rods.b[r] as usize);
             let nodes = &self.nodes;
@@ -44,25 +44,19 @@ impl System {
 
     /// Projects the velocities; a rope whose impulse would push is let go and the projection made again.
     pub fn settle_velocities(&mut self) {
-        let speed = self.nodes.vx.iter().chain(&self.nodes.vy).fold(0.0f64, |m, v| m.max(v.abs()));
+        let speed = self.nodes.fastest();
         for _ in 0..=self.ropes().len() {
             self.velocity_error();
             self.matrix.solve(&mut self.rhs);
             let pushes = |r: &usize| {
                 let noise = 1e-12 * speed / self.rods.square[*r].sqrt();
-                self.rods.held[*r] && self.rhs[*r] * self.reduced(*r) > noise
+                self.rods.held[*r] && self.rhs[*r] * self.mobility(*r) > noise
             };
             let Some(first) = self.ropes().find(pushes) else { break };
             self.rods.held[first] = false;
             self.factor();
         }
-        let (mut vx, mut vy) = (std::mem::take(&mut self.nodes.vx), std::mem::take(&mut self.nodes.vy));
-        self.push(&mut vx, &mut vy);
-        (self.nodes.vx, self.nodes.vy) = (vx, vy);
-    }
-
-    fn reduced(&self, r: usize) -> f64 {
-        self.nodes.w[self.rods.a[r] as usize] + self.nodes.w[self.rods.b[r] as usize]
+        self.push_velocities();
     }
 
     /// Lets go of the rope that pushes hardest with these multipliers; returns whether there is one.

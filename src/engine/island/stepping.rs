@@ -12,6 +12,7 @@ use crate::engine::integrate::nystrom::Nystrom;
 use crate::engine::integrate::outcome::Outcome;
 use crate::engine::integrate::pace::Pace;
 use crate::engine::integrate::rattle::Rattle;
+use crate::engine::integrate::rattle_turning::RattleTurning;
 use crate::engine::integrate::runge_kutta::RungeKutta;
 use crate::engine::integrate::taylor::Taylor;
 use crate::engine::plan::{IslandPlan, Plan};
@@ -24,6 +25,7 @@ pub(crate) struct Islands {
     islands: Vec<(IslandPlan, System)>,
     taylor: Taylor,
     rattle: Rattle,
+    rattle_turning: RattleTurning,
     runge_kutta: RungeKutta,
     nystrom: Nystrom,
     /// By island: it keeps the order in which the island is eliminated.
@@ -71,7 +73,9 @@ impl Islands {
                 report.sweeps = report.sweeps.max(quality.sweeps);
             }
             let system = &self.islands[index].1;
-            if outcome.failed || !in_range(system) {
+            let within = system.nodes.within(LARGEST_COORDINATE, LARGEST_SPEED)
+                && system.turning.within(LARGEST_COORDINATE * LARGEST_SPEED);
+            if outcome.failed || !within {
                 self.given_up.push(index);
                 continue;
             }
@@ -107,6 +111,16 @@ impl Islands {
             // The mouse's hold has a damper.
             integrator = Integrator::Taylor;
         }
+        if integrator == Integrator::Rattle && system.turns() {
+            if RattleTurning::takes(system) {
+                let outcome = self.rattle_turning.advance(system, time, pace);
+                if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
+                    return (integrator, outcome);
+                }
+                system.load(world, time);
+            }
+            integrator = Integrator::Taylor;
+        }
         if integrator == Integrator::Rattle {
             // The factor of a net costs more than all else, and RATTLE takes one a substep.
             if plan.steps.is_some() || !plan.net {
@@ -114,7 +128,9 @@ impl Islands {
                 if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
                     return (integrator, outcome);
                 }
-                system.load(world, time);
+                if !outcome.stiff {
+                    system.load(world, time);
+                }
             }
             integrator = Integrator::EnergyMomentum;
         }
@@ -123,7 +139,7 @@ impl Islands {
             Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
-            _ => self.taylor.advance(system, time, tolerance),
+            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length),
         };
         (integrator, outcome)
     }
@@ -140,30 +156,27 @@ impl Islands {
         }
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
         for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
-            system.store(world);
-            for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
-                let rotor = world.bodies.rotor[*body as usize];
-                if rotor != NO_ROTOR && world.bodies.inverse_mass[*body as usize] > 0.0 {
-                    let (decay, rotors) = (system.drag, &mut world.bodies.rotors);
-                    let omega = rotors.omega[rotor as usize];
-                    // ω' = −drag ω
-                    let kept = libm::exp(-decay * time);
-                    let mean = if decay > 0.0 { -libm::expm1(-decay * time) / decay } else { time };
-                    rotors.angle[rotor as usize] += omega * mean;
-                    rotors.omega[rotor as usize] = omega * kept;
-                }
+            if !world.bodies.rotors.omega.is_empty() {
+                turn_freely(system, world, time);
             }
+            // After that, as it knows better of what does not turn freely.
+            system.store(world);
         }
     }
 }
 
-/// Whether all nodes are where numbers mean something.
-fn in_range(system: &System) -> bool {
-    let nodes = &system.nodes;
-    // Written so that a NaN is out of range.
-    let within = |values: &[f64], most: f64| values.iter().all(|value| value.abs() <= most);
-    within(&nodes.x, LARGEST_COORDINATE)
-        && within(&nodes.y, LARGEST_COORDINATE)
-        && within(&nodes.vx, LARGEST_SPEED)
-        && within(&nodes.vy, LARGEST_SPEED)
+/// Turns all discs of an island on for `time` [s] as if nothing turned them: ω' = −drag ω.
+fn turn_freely(system: &System, world: &mut World, time: f64) {
+    let decay = system.drag;
+    let kept = libm::exp(-decay * time);
+    let mean = if decay > 0.0 { -libm::expm1(-decay * time) / decay } else { time };
+    let bodies = &mut world.bodies;
+    for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
+        let rotor = bodies.rotor[*body as usize];
+        if rotor != NO_ROTOR && bodies.inverse_mass[*body as usize] > 0.0 {
+            let omega = bodies.rotors.omega[rotor as usize];
+            bodies.rotors.angle[rotor as usize] += omega * mean;
+            bodies.rotors.omega[rotor as usize] = omega * kept;
+        }
+    }
 }

@@ -2,11 +2,13 @@
 //!
 //! M a = f + Jᵀλ, with C = ½ (|d|² − L²) for a rod from a to b, d = x_b − x_a, so that J = (−dᵀ, dᵀ) is linear in the
 //! positions; λ d is then the force on b, and λ L the multiplier [N] that every solver of the engine reports. A pin has
-//! C = d, two rows.
+//! C = d, two rows. Where anchors are off the centres of discs the angles are unknowns as well: see [`super::turning`].
 
 use super::Nodes;
 use super::forces::{Held, Springs};
 use super::matrix::Matrix;
+use super::pairs::{self, Pairs};
+use super::turning::Turning;
 use crate::engine::constraint::{Kind, WORLD};
 use crate::engine::method::LinearSolver;
 use crate::engine::world::World;
@@ -18,7 +20,10 @@ pub(crate) struct Rods {
     /// Nodes at the ends.
     pub a: Vec<u32>,
     pub b: Vec<u32>,
-    /// L² [m²]
+    /// The same, for loops over all.
+    pub pairs: Pairs,
+    /// L [m] and L² [m²]
+    pub length: Vec<f64>,
     pub square: Vec<f64>,
     /// Index in the world's list.
     pub constraint: Vec<u32>,
@@ -47,12 +52,16 @@ pub(crate) struct System {
     pub rods: Rods,
     pub pins: Pins,
     pub springs: Springs,
+    /// Discs that anchors turn.
+    pub turning: Turning,
     pub gravity: DVec2,
     /// [1/s]
     pub drag: f64,
     pub held: Option<Held>,
     /// Size of the island at the start of the step [m]: errors are measured in parts of it.
     pub length: f64,
+    /// The longest rod [m].
+    longest: f64,
     /// Analysed when it is first filled: the midpoint rule has one of its own.
     pub matrix: Matrix,
     /// What solves it, and in how many sweeps at most.
@@ -60,49 +69,72 @@ pub(crate) struct System {
     /// d = x_b − x_a of the rods, at the positions that the matrix was filled for.
     pub dx: Vec<f64>,
     pub dy: Vec<f64>,
+    /// d that the matrix was last factored for.
+    factored: [Vec<f64>; 2],
+    /// Differences of something else, by rod.
+    pub scratch: [Vec<f64>; 2],
     /// Right-hand side and solution: rods, then two rows a pin.
     pub rhs: Vec<f64>,
 }
 
 impl System {
     /// The island of these bodies and constraints (dense indices, ascending), with what solves its rows and in how many sweeps.
+    ///
+    /// Nodes are numbered as the bodies are, fixed ones among them, and rods and springs sorted along them, so that rows of a
+    /// rope, a net or a cloth become runs ([`Pairs`]).
     pub fn new(world: &World, bodies: &[u32], constraints: &[u32], solver: (LinearSolver, u32)) -> System {
         let mut system = System { gravity: world.gravity, drag: world.drag, ..System::default() };
-        for body in bodies {
-            let i = *body as usize;
+        let c = &world.constraints;
+        let ends = constraints.iter().flat_map(|i| [c.a[*i as usize], c.b[*i as usize]]);
+        let mut all: Vec<u32> = bodies.iter().copied().chain(ends.filter(|body| *body != WORLD)).collect();
+        all.sort_unstable();
+        all.dedup();
+        for body in &all {
+            let (i, own) = (*body as usize, bodies.binary_search(body).is_ok());
             let position = world.bodies.position[i];
-            system.nodes.push(*body, position.x, position.y, world.bodies.inverse_mass[i]);
+            let inverse_mass = if own { world.bodies.inverse_mass[i] } else { 0.0 };
+            system.nodes.push(*body, position.x, position.y, inverse_mass);
         }
-        let is_rope = |c: &&u32| matches!(world.constraints.kind[**c as usize], Kind::Rope { .. });
-        let rods = constraints.iter().filter(|c| !is_rope(c));
-        for constraint in rods.chain(constraints.iter().filter(is_rope)) {
-            system.add_constraint(world, bodies, *constraint);
-        }
+        let mut joined: Vec<_> = constraints.iter().map(|i| (system.ends(world, &all, *i as usize), *i)).collect();
+        joined.sort_by_key(|((a, b), i)| {
+            let is_rope = matches!(c.kind[*i as usize], Kind::Rope { .. });
+            (is_rope, pairs::order(*a, *b), *i)
+        });
+        joined.into_iter().for_each(|((a, b), i)| system.add_constraint(world, a, b, i));
+        system.turning.hold(world, &mut system.nodes);
         let rows = system.rods.a.len();
         (system.dx, system.dy) = (vec![0.0; rows], vec![0.0; rows]);
+        system.scratch = [vec![0.0; rows], vec![0.0; rows]];
         system.rhs = vec![0.0; rows + 2 * system.pins.a.len()];
+        system.rods.pairs = Pairs::new(&system.rods.a, &system.rods.b);
+        system.springs.finish();
         system.solver = solver;
         system
     }
 
-    fn add_constraint(&mut self, world: &World, bodies: &[u32], constraint: u32) {
-        let (c, i) = (&world.constraints, constraint as usize);
-        let mut end = |body: u32, at: DVec2| {
-            if body == WORLD {
-                return self.nodes.push(WORLD, at.x, at.y, 0.0);
-            }
-            match bodies.binary_search(&body) {
-                Ok(node) => node as u32,
-                Err(_) => self.fixed_node(world, body),
-            }
+    /// Nodes at the ends of a constraint; those of rods, ropes and springs, which have no direction, ascending.
+    fn ends(&mut self, world: &World, bodies: &[u32], constraint: usize) -> (u32, u32) {
+        let c = &world.constraints;
+        let mut end = |body: u32, at: DVec2| match bodies.binary_search(&body) {
+            Ok(node) => self.turning.anchor(world, &mut self.nodes, node as u32, at),
+            // An anchor in the world.
+            Err(_) => self.nodes.push(WORLD, at.x, at.y, 0.0),
         };
-        let (a, b) = (end(c.a[i], c.at_a[i]), end(c.b[i], c.at_b[i]));
+        let (a, b) = (end(c.a[constraint], c.at_a[constraint]), end(c.b[constraint], c.at_b[constraint]));
+        let directed = matches!(c.kind[constraint], Kind::Pin);
+        if directed || a <= b { (a, b) } else { (b, a) }
+    }
+
+    fn add_constraint(&mut self, world: &World, a: u32, b: u32, constraint: u32) {
+        let (c, i) = (&world.constraints, constraint as usize);
         match c.kind[i] {
             Kind::Rod { length } | Kind::Rope { length } => {
                 let rods = &mut self.rods;
                 rods.a.push(a);
                 rods.b.push(b);
+                rods.length.push(length);
                 rods.square.push(length * length);
+                self.longest = self.longest.max(length);
                 rods.constraint.push(constraint);
                 rods.lambda.push(0.0);
                 let rope = matches!(c.kind[i], Kind::Rope { .. });
@@ -123,53 +155,41 @@ impl System {
         }
     }
 
-    /// The node of a body that no constraint can move, shared by all that hang on it.
-    fn fixed_node(&mut self, world: &World, body: u32) -> u32 {
-        match self.nodes.body.iter().position(|known| *known == body) {
-            Some(node) => node as u32,
-            None => {
-                let position = world.bodies.position[body as usize];
-                self.nodes.push(body, position.x, position.y, 0.0)
-            }
-        }
-    }
-
     /// Diagonal of the box around all nodes, or the longest rod or spring if that is longer; 1 m for a single point.
     fn measure(&self) -> f64 {
-        let span = |values: &[f64]| {
-            let fold = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
-            let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), fold);
-            high - low
-        };
-        let size = span(&self.nodes.x).hypot(span(&self.nodes.y));
-        let longest = self.rods.square.iter().fold(0.0f64, |l, s| l.max(s.sqrt()));
-        let size = size.max(longest);
+        let [width, height] = self.nodes.extent();
+        let size = width.hypot(height).max(self.longest);
         if size > 0.0 && size.is_finite() { size } else { 1.0 }
     }
 
     /// Reads the bodies, and the hold if it is on one of them. `h` is the length of the step to come [s].
     pub fn load(&mut self, world: &World, h: f64) {
         self.nodes.load(world, h);
+        if self.turns() {
+            self.turning.load(world, &mut self.nodes);
+        }
         // The multipliers are where iterations begin: from the world, so that a fresh stepper goes on with the same bits.
         let force = &world.constraints.force;
-        for ((lambda, constraint), square) in
-            self.rods.lambda.iter_mut().zip(&self.rods.constraint).zip(&self.rods.square)
-        {
-            *lambda = force[*constraint as usize].x / square.sqrt();
+        let rods = &mut self.rods;
+        for ((lambda, constraint), length) in rods.lambda.iter_mut().zip(&rods.constraint).zip(&rods.length) {
+            *lambda = force[*constraint as usize].x / length;
         }
         for (lambda, constraint) in self.pins.lambda.iter_mut().zip(&self.pins.constraint) {
             *lambda = force[*constraint as usize];
         }
-        self.held = Held::of(world, &self.nodes);
+        self.held = Held::of(world, &self.nodes, self.turning.held_point());
         self.length = self.measure();
     }
 
     /// Writes the bodies and the multipliers back.
     pub fn store(&self, world: &mut World) {
         self.nodes.store(world);
+        self.turning.store(world);
         let force = &mut world.constraints.force;
-        for (r, constraint) in self.rods.constraint.iter().enumerate() {
-            let lambda = if self.rods.held[r] { self.rods.lambda[r] * self.rods.square[r].sqrt() } else { 0.0 };
+        let rods = &self.rods;
+        let multipliers = rods.lambda.iter().zip(&rods.length).zip(&rods.held);
+        for (constraint, ((lambda, length), held)) in rods.constraint.iter().zip(multipliers) {
+            let lambda = if *held { lambda * length } else { 0.0 };
             force[*constraint as usize] = DVec2::new(lambda, 0.0);
         }
         for (constraint, lambda) in self.pins.constraint.iter().zip(&self.pins.lambda) {
@@ -181,6 +201,13 @@ impl System {
         }
     }
 
+    /// Takes note whether the hold's bound acts now.
+    pub fn see_bound(&mut self) {
+        if let Some(held) = &mut self.held {
+            held.bounded = held.unbounded(&self.nodes).length() > held.most;
+        }
+    }
+
     /// Whether nothing but forces acts.
     pub fn unconstrained(&self) -> bool {
         self.rods.a.is_empty() && self.pins.a.is_empty()
@@ -189,9 +216,19 @@ impl System {
     /// Fills the matrix for the present positions and factors it.
     pub fn factor(&mut self) {
         self.take_differences();
+        if self.turns() {
+            return self.factor_turning(self.solver);
+        }
+        // A step begins where the last one ended: its matrix is there already. Ropes change it without moving.
+        let [fx, fy] = &mut self.factored;
+        if *fx == self.dx && *fy == self.dy && self.matrix.analysed() && self.rods.first_rope == self.rods.a.len() {
+            return;
+        }
         if !self.matrix.analysed() {
             self.matrix = Matrix::new(&self.nodes, &self.rods, &self.pins, self.solver);
         }
+        fx.clone_from(&self.dx);
+        fy.clone_from(&self.dy);
         self.matrix.factor(&self.rods, &self.dx, &self.dy);
     }
 
@@ -204,12 +241,8 @@ impl System {
 
     /// d of every rod at the present positions.
     pub fn take_differences(&mut self) {
-        let (rods, nodes) = (&self.rods, &self.nodes);
-        let ends = rods.a.iter().zip(&rods.b);
-        for (((a, b), dx), dy) in ends.zip(&mut self.dx).zip(&mut self.dy) {
-            *dx = nodes.x[*b as usize] - nodes.x[*a as usize];
-            *dy = nodes.y[*b as usize] - nodes.y[*a as usize];
-        }
+        self.rods.pairs.differences(&self.nodes.x, &mut self.dx);
+        self.rods.pairs.differences(&self.nodes.y, &mut self.dy);
     }
 
     /// Adds M⁻¹ Jᵀ `self.rhs` to vectors by node, with the d that the matrix was filled for.
@@ -228,14 +261,8 @@ pub(crate) fn push(
     x: &mut [f64],
     y: &mut [f64],
 ) {
-    for ((((a, b), dx), dy), lambda) in rods.a.iter().zip(&rods.b).zip(dx).zip(dy).zip(lambda) {
-        let (a, b) = (*a as usize, *b as usize);
-        let (fx, fy) = (lambda * dx, lambda * dy);
-        x[a] -= w[a] * fx;
-        y[a] -= w[a] * fy;
-        x[b] += w[b] * fx;
-        y[b] += w[b] * fy;
-    }
+    rods.pairs.push(w, lambda, dx, x);
+    rods.pairs.push(w, lambda, dy, y);
     let pinned = lambda[rods.a.len()..].chunks_exact(2);
     for ((a, b), lambda) in pins.a.iter().zip(&pins.b).zip(pinned) {
         let (a, b) = (*a as usize, *b as usize);

@@ -144,9 +144,9 @@ impl Graph {
     }
 
     /// Solves for a step of `h` seconds; the island is left as it is.
-    pub fn solve(&mut self, system: &System, h: f64) -> bool {
+    pub fn solve(&mut self, system: &System, h: f64, tight: f64) -> bool {
         self.begin(system, h);
-        let mut progress = Progress::default();
+        let mut progress = Progress { tight, ..Progress::default() };
         let mut refactor = true;
         while progress.goes_on() {
             self.own_forces(system);

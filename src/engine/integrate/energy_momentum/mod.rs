@@ -30,11 +30,15 @@ const MOST_CHANGES: u32 = 3;
 const MOST_ITERATIONS: u32 = 15;
 /// What the next correction would have to change to be worth making, in parts of a rod's length. Well above the rounding of a
 /// long chain's solve, well below what energy shows: its error is the square of what is left.
-const TOLERANCE: f64 = 1e-13;
+const TIGHT: f64 = 1e-13;
+/// The same where an accuracy is wanted, as a part of it.
+const LOOSE: f64 = 1e-2;
 /// Corrections below this that do not shrink are rounding.
 const ROUNDING: f64 = 1e-9;
 /// A start farther off C = 0 (in parts of L²) is projected: someone has moved a body.
-const FAR: f64 = 1e-10;
+const OFF: f64 = 1e-6;
+/// Corrections are made down to this, whatever is wanted.
+const FAR: f64 = 1e-7;
 
 /// Scratch memory for one island.
 #[derive(Debug, Default)]
@@ -43,7 +47,7 @@ pub(crate) struct EnergyMomentum {
     /// The island at the start of the time, and of the step.
     start: Moment,
     before: Moment,
-    /// By node: the largest turn of a rod that ends there [rad].
+    /// By node: turns of the rods that end there.
     turn: Vec<f64>,
 }
 
@@ -65,14 +69,17 @@ impl EnergyMomentum {
                 None => Solver::Graph(Box::new(Graph::new(system))),
             };
         }
-        let mut steps = if let Pace::Steps(steps) = pace { steps } else { 1 };
+        let (mut steps, tight) = match pace {
+            Pace::Steps(steps) => (steps, TIGHT),
+            Pace::Within(tolerance) => (1, (LOOSE * tolerance / system.length).clamp(TIGHT, FAR)),
+        };
         let mut changes = 0;
         if !meet(system) {
             return Outcome { order: 2, failed: true, ..Outcome::default() };
         }
         self.start.keep(system);
         loop {
-            let mut outcome = self.run(system, time, steps, pace);
+            let mut outcome = self.run(system, time, steps, (pace, tight));
             outcome.retries += changes;
             let Pace::Within(tolerance) = pace else { return outcome };
             let more = steps_within(f64::from(steps), outcome.error / tolerance, 2.0);
@@ -82,19 +89,21 @@ impl EnergyMomentum {
         }
     }
 
-    fn run(&mut self, system: &mut System, time: f64, steps: u32, pace: Pace) -> Outcome {
+    fn run(&mut self, system: &mut System, time: f64, steps: u32, (pace, tight): (Pace, f64)) -> Outcome {
         let mut outcome = Outcome { order: 2, ..Outcome::default() };
         let watched = matches!(pace, Pace::Within(_));
-        let mut error = 0.0;
+        let (mut error, mut first) = (0.0, true);
         for _ in 0..steps {
             let step = |h: f64| {
-                if watched {
+                if watched && !first {
                     self.before.keep(system);
                 }
-                let solved = self.solve(system, h);
+                let solved = self.solve(system, h, tight);
                 if solved {
                     self.apply(system, h);
-                    error += if watched { self.before.error(system, h, &mut self.turn) } else { 0.0 };
+                    let before = if first { &self.start } else { &self.before };
+                    error += if watched { before.error(system, h, &mut self.turn) } else { 0.0 };
+                    first = false;
                 }
                 solved
             };
@@ -107,11 +116,11 @@ impl EnergyMomentum {
         outcome
     }
 
-    fn solve(&mut self, system: &System, h: f64) -> bool {
+    fn solve(&mut self, system: &System, h: f64, tight: f64) -> bool {
         match &mut self.solver {
             Solver::None => false,
-            Solver::Tree(tree) => tree.solve(system, h),
-            Solver::Graph(graph) => graph.solve(system, h),
+            Solver::Tree(tree) => tree.solve(system, h, tight),
+            Solver::Graph(graph) => graph.solve(system, h, tight),
         }
     }
 
@@ -136,12 +145,14 @@ fn meet(system: &mut System) -> bool {
         return true;
     }
     system.take_differences();
-    system.position_error() <= FAR || system.meet_constraints()
+    system.position_error() <= OFF || system.meet_constraints()
 }
 
 /// How the iterations go.
 #[derive(Clone, Copy, Debug, Default)]
 struct Progress {
+    /// Corrections below this need not be made.
+    tight: f64,
     iterations: u32,
     last: f64,
     converged: bool,
@@ -170,7 +181,7 @@ impl Progress {
     fn note(&mut self, moved: f64, next: f64) {
         let stalls = self.iterations > 0 && moved > 0.5 * self.last && moved < ROUNDING;
         self.iterations += 1;
-        self.converged = next < TOLERANCE || stalls;
+        self.converged = next < self.tight || stalls;
         self.failed = !self.converged && (!(moved < 1e3) || self.iterations == MOST_ITERATIONS);
         self.last = moved;
     }

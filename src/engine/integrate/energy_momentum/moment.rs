@@ -3,6 +3,9 @@
 use crate::engine::island::System;
 use glam::DVec2;
 
+/// Rods that are worked off side by side.
+const SIDE: usize = 32;
+
 /// Positions, velocities and multipliers.
 #[derive(Debug, Default)]
 pub(super) struct Moment {
@@ -38,19 +41,25 @@ impl Moment {
         let [x, y, vx, vy] = &self.coordinates;
         turn.clear();
         turn.resize(nodes.len(), 0.0);
-        for (r, (a, b)) in rods.a.iter().zip(&rods.b).enumerate() {
-            let (a, b) = (*a as usize, *b as usize);
-            let before = (x[b] - x[a], y[b] - y[a]);
-            let after = (nodes.x[b] - nodes.x[a], nodes.y[b] - nodes.y[a]);
-            let turned = ((before.0 * after.1 - before.1 * after.0) / rods.square[r]).abs();
-            turn[a] = turn[a].max(turned);
-            turn[b] = turn[b].max(turned);
+        let [mut dx, mut dy, mut ex, mut ey] = [[0.0; SIDE]; 4];
+        for block in rods.pairs.blocks::<SIDE>() {
+            let range = block.range();
+            let n = range.len();
+            for (from, to) in [(x, &mut dx), (y, &mut dy), (&nodes.x, &mut ex), (&nodes.y, &mut ey)] {
+                block.differences(from, &mut to[..n]);
+            }
+            let square = &rods.square[range][..n];
+            for k in 0..n {
+                let turned = (dx[k] * ey[k] - dy[k] * ex[k]) / square[k];
+                dx[k] = 0.5 * turned * turned;
+            }
+            block.add_to_both(&dx[..n], turn);
         }
-        let square = |i: usize| {
+        let mut sum = 0.0;
+        for (i, turned) in turn.iter().enumerate() {
             let (dx, dy) = (nodes.vx[i] - vx[i], nodes.vy[i] - vy[i]);
-            turn[i] * turn[i] * (dx * dx + dy * dy)
-        };
-        let sum: f64 = (0..nodes.len()).map(square).sum();
+            sum += turned * (dx * dx + dy * dy);
+        }
         h / 12.0 * (sum / nodes.len() as f64).sqrt()
     }
 }

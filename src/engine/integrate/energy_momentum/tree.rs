@@ -253,10 +253,10 @@ impl Tree {
     }
 
     /// Solves for a step of `h` seconds; the island is left as it is.
-    pub fn solve(&mut self, system: &System, h: f64) -> bool {
+    pub fn solve(&mut self, system: &System, h: f64, tight: f64) -> bool {
         self.begin(system, h);
         let extra = !self.springs.is_empty() || self.closing.is_some() || system.held.is_some();
-        let mut progress = Progress::default();
+        let mut progress = Progress { tight, ..Progress::default() };
         while progress.goes_on() {
             // The multipliers of a first guess, which has no angular accelerations, are less right than the last step's.
             let first = progress.iterations == 0;

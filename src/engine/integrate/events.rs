@@ -1,29 +1,40 @@
-//! Events on a Taylor polynomial: a slack rope that tightens, a taut one that would have to push.
+//! Events on a Taylor polynomial: a slack rope that tightens, a taut one that would have to push, the mouse's force that meets its
+//! bound or leaves it.
 //!
-//! Found as the first change of sign of |d|² − L² or of λ among equally spaced samples, then bisected. Two changes between two
-//! samples are missed, which leaves a rope longer by less than the tolerance or goes unnoticed.
+//! Found as the first change of sign of |d|² − L², of λ or of |u|² − f² among equally spaced samples, then bisected. Two changes
+//! between two samples are missed, which leaves a rope longer by less than the tolerance or goes unnoticed.
 
 use crate::engine::island::System;
+use glam::DVec2;
 
 /// Samples within a step.
 const SAMPLES: u32 = 8;
 
-/// What happens to which rope.
+/// What happens, to which rope.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Event {
-    rope: usize,
-    taut: bool,
+pub(crate) enum Event {
+    Rope { rope: usize, taut: bool },
+    Hold { bounded: bool },
 }
 
 impl Event {
     /// Switches the rope's row; a rope that tightens takes the speed away that would stretch it.
     pub fn apply(self, system: &mut System) {
-        system.rods.held[self.rope] = self.taut;
-        system.factor();
-        if self.taut {
-            system.settle_velocities();
-        } else {
-            system.rods.lambda[self.rope] = 0.0;
+        match self {
+            Event::Rope { rope, taut } => {
+                system.rods.held[rope] = taut;
+                system.factor();
+                if taut {
+                    system.settle_velocities();
+                } else {
+                    system.rods.lambda[rope] = 0.0;
+                }
+            }
+            Event::Hold { bounded } => {
+                if let Some(held) = &mut system.held {
+                    held.bounded = bounded;
+                }
+            }
         }
     }
 }
@@ -33,6 +44,8 @@ pub(crate) struct Series<'a> {
     pub dx: &'a [Vec<f64>],
     pub dy: &'a [Vec<f64>],
     pub lambda: &'a [Vec<f64>],
+    /// The hold's force before its bound.
+    pub hold: &'a [DVec2],
 }
 
 impl Series<'_> {
@@ -52,7 +65,19 @@ impl Series<'_> {
                 }
             };
             if let Some(at) = first_change(sign, until) {
-                first = Some((at, Event { rope, taut: !taut }));
+                first = Some((at, Event::Rope { rope, taut: !taut }));
+            }
+        }
+        // A bound of nothing has no direction to come back from.
+        if let Some(held) = system.held.as_ref().filter(|held| held.most > 0.0) {
+            let until = first.map_or(part, |(at, _)| at);
+            let excess = |t: f64| {
+                let force = self.hold.iter().rev().fold(DVec2::ZERO, |sum, c| sum * t + *c) / held.most;
+                let excess = force.length_squared() - 1.0;
+                if held.bounded { -excess } else { excess }
+            };
+            if let Some(at) = first_change(excess, until) {
+                first = Some((at, Event::Hold { bounded: !held.bounded }));
             }
         }
         first
