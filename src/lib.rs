@@ -4,19 +4,23 @@
 //! - `window` (binary's desktop shell): the winit loop that ties `ui`, `render` and `app` together
 //! - `ui`: egui panels and plots; `render`: wgpu pipelines, one per kind of mark
 //! - `app`: the simulation thread, commands, camera, tools, undo
+//! - [`lab`]: speed against error: sweeps, references, fronts, reports
+//! - [`trial`]: the pass of a hard case, evaluated while it runs
 //! - [`measure`]: energy, momentum, violation, penetration, error against a truth
-//! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
 //! - [`scene`]: the file format, its errors, its generators
+//! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
 //! - [`engine`]: the physics; knows no window, file or clock
 
 #[cfg(feature = "desktop")]
 pub mod app;
 pub mod cli;
 pub mod engine;
+pub mod lab;
 pub mod measure;
 #[cfg(feature = "desktop")]
 pub mod render;
 pub mod scene;
+pub mod trial;
 pub mod truth;
 #[cfg(feature = "desktop")]
 pub mod ui;

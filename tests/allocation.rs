@@ -75,6 +75,11 @@ fn a_warm_step_allocates_nothing() {
             assert_eq!(found, 0, "{name} to {accuracy:e}");
         }
     }
+    for (name, warm_up) in [("hard/bouncing_ball", 300), ("hard/weighing", 10), ("hard/bounce_box", 60), ("stack", 10)]
+    {
+        let found = allocations(name, |method| Method { automatic: true, ..method }, warm_up);
+        assert_eq!(found, 0, "{name} by accuracy");
+    }
     for linear in LinearSolver::ALL {
         let found =
             allocations("truth/bridge", |method| Method { integrator: Integrator::Rattle, linear, ..method }, 10);

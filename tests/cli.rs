@@ -43,15 +43,18 @@ fn path_in(folder: &TempDir, name: &str) -> String {
     folder.path().join(name).display().to_string()
 }
 
-/// The rows of a CSV file as numbers, without the header.
+/// The rows of a CSV file as numbers, without the header; NaN for an empty cell.
 fn rows(csv: &str) -> Vec<Vec<f64>> {
-    let number = |cell: &str| cell.parse().unwrap_or_else(|_| panic!("{cell:?} is a number"));
+    let number = |cell: &str| {
+        if cell.is_empty() { "NaN" } else { cell }.parse().unwrap_or_else(|_| panic!("{cell:?} is a number"))
+    };
     csv.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect()
 }
 
 const TRAJECTORY: &str = "time,id,x,y,angle,vx,vy,omega";
 const MEASURES: &str = "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,violation_max,\
-                        penetration_max,contacts,step_us,local_error";
+                        penetration_max,contacts,step_us,local_error,violation_rms,energy,energy_drift,\
+                        error_rms,error_max,error_rms_percent,error_max_percent,order";
 
 #[test]
 fn every_command_explains_itself() {
@@ -149,6 +152,74 @@ fn a_run_writes_every_body_at_the_start_and_at_every_sample() {
     assert!(last[3] < -0.5, "the lower bob has fallen: {last:?}");
 }
 
+/// The columns of a run's measures by name.
+fn measured(arguments: &[&str]) -> impl Fn(&str) -> Vec<f64> {
+    let rows = rows(&prints(&[&["run"], arguments, &["--measures", "-"]].concat()));
+    move |name| {
+        let column = MEASURES.split(',').position(|known| known == name).unwrap_or_else(|| panic!("no column {name}"));
+        rows.iter().map(|row| row[column]).collect()
+    }
+}
+
+#[test]
+fn measures_tell_the_error_where_the_truth_is_known() {
+    let truth = tautline::truth::stored("truth/pendulum").expect("a stored truth");
+    // Half a second at 120 Hz: every other step is a sample of the truth.
+    let columns = measured(&["truth/pendulum", "--seconds", "0.5", "--hz", "120"]);
+    let (rms, max, percent) = (columns("error_rms"), columns("error_max"), columns("error_max_percent"));
+    assert_eq!((rms.len(), rms[0]), (61, 0.0));
+    for k in 1..61 {
+        assert_eq!(rms[k].is_nan(), k % 2 == 1, "row {k}");
+        // Two bodies, one of which is fixed; the length is 1 m.
+        assert!(k % 2 == 1 || ((max[k] - rms[k] * 2f64.sqrt()).abs() < 1e-15 && percent[k] == 100.0 * max[k]));
+    }
+    let columns = measured(&["truth/pendulum", "--seconds", "11"]);
+    let (time, error) = (columns("time"), columns("error_max"));
+    assert_eq!(error.iter().filter(|error| error.is_finite()).count(), truth.times.len(), "10 s are known");
+    assert!(time.iter().zip(&error).all(|(t, error)| error.is_finite() == (*t <= 10.0 + 1e-9)));
+    // A scene with a formula, one without any truth.
+    let columns = measured(&["hard/pendulum", "--seconds", "1"]);
+    assert!(columns("error_max").iter().all(|error| *error < 1e-8), "{:?}", columns("error_max"));
+    assert!(measured(&["rope", "--seconds", "0.1"])("error_rms").iter().all(|error| error.is_nan()));
+}
+
+#[test]
+fn measures_add_up_the_energy_and_tell_its_drift() {
+    let columns = measured(&["hard/oscillator", "--seconds", "2"]);
+    let drift = columns("energy_drift");
+    assert!(drift.iter().all(|drift| drift.abs() < 1e-8), "{drift:?}");
+    let (kinetic, elastic, energy) = (columns("kinetic"), columns("elastic"), columns("energy"));
+    // ½ k A² = 3.125 J
+    assert!((0..energy.len()).all(|i| energy[i] == kinetic[i] + elastic[i] && (energy[i] - 3.125).abs() < 1e-7));
+    // Drag takes what is there.
+    let fade = measured(&["hard/damped_oscillator", "--seconds", "3"])("energy_drift");
+    assert!(fade[fade.len() - 1] < -0.4, "{fade:?}");
+    let columns = measured(&["hard/rope", "--seconds", "1", "--substeps", "2", "--solver", "pgs"]);
+    let (rms, max) = (columns("violation_rms"), columns("violation_max"));
+    assert!((1..rms.len()).all(|i| rms[i] > 0.0 && rms[i] <= max[i]), "{rms:?}");
+}
+
+#[test]
+fn the_observed_order_is_that_of_the_integrator() {
+    let order = |arguments: &[&str]| {
+        let line = prints(&[&["run"], arguments, &["--order"]].concat());
+        let order = line.trim_end().rsplit_once("observed order ").unwrap_or_else(|| panic!("{line}")).1.to_owned();
+        order.parse::<f64>().unwrap_or_else(|_| panic!("{line}"))
+    };
+    for (integrator, expected) in [("semi-implicit-euler", 1.0), ("velocity-verlet", 2.0), ("runge-kutta-4", 4.0)] {
+        // Against the formula, and among three runs of a scene of which no truth is known.
+        for scene in ["hard/oscillator", "hard/stiff_with_soft"] {
+            let substeps = if integrator == "runge-kutta-4" { "4" } else { "16" };
+            let found = order(&[scene, "--seconds", "1", "--integrator", integrator, "--substeps", substeps]);
+            println!("{scene}, {integrator}: {found}");
+            assert!((found - expected).abs() < 0.2, "{scene}, {integrator}: {found}");
+        }
+    }
+    let columns = measured(&["hard/oscillator", "--seconds", "1", "--integrator", "velocity-verlet", "--order"]);
+    assert!(columns("order")[60] > 1.8 && columns("order")[0].is_nan());
+    fails(&["run", "hard/oscillator", "--order"], 1, "choose an integrator");
+}
+
 fn read(path: &str) -> String {
     std::fs::read_to_string(Path::new(path)).expect("the file that was asked for")
 }
@@ -219,7 +290,7 @@ fn settings_on_the_command_line_replace_those_of_the_scene() {
 fn the_summary_stays_out_of_rows_on_standard_output() {
     let output = tautline(&["run", "pendulum", "--seconds", "0.1", "--measures", "-", "--hash"]);
     let (out, messages) = (text(&output.stdout), text(&output.stderr));
-    assert!(out.lines().all(|line| line.split(',').count() == 12), "{out}");
+    assert!(out.lines().all(|line| line.split(',').count() == 20), "{out}");
     assert_eq!(messages.lines().count(), 2, "summary and hash: {messages}");
 }
 
@@ -374,6 +445,28 @@ fn truth_is_computed_compared_and_written() {
     let own = path_in(&folder, "own.ron");
     std::fs::write(&own, "(version: 1, truth: (seconds: 0.1, length: 1), bodies: [Particle()])").expect("a scene file");
     assert!(prints(&["truth", &own]).contains("not stored, 7 samples of 1 bodies"));
+    prints(&["truth", "truth/pendulum", "--check"]);
+    fails_late(&["truth", &own, "--check"], "write it anew");
+}
+
+#[test]
+fn a_closed_form_is_compared_with_the_reference_solver_and_never_stored() {
+    let said = prints(&["truth", "hard/pendulum"]);
+    assert!(said.starts_with("hard/pendulum: closed form Pendulum, 601 samples of 2 bodies; the reference"), "{said}");
+    let folder = folder();
+    let ball = path_in(&folder, "ball.ron");
+    let walls = "bodies: [Particle(position: (0, 1))], walls: [Segment(from: (-1, 0), to: (1, 0))]";
+    let text = format!("(version: 1, truth: (seconds: 1, length: 1, form: Bounce), {walls})");
+    std::fs::write(&ball, text).expect("a scene file");
+    assert!(prints(&["truth", &ball]).contains("61 samples of 1 bodies; a body that can touch a wall"));
+    fails(&["truth", &ball, "--check"], 1, "leave out --write and --check");
+}
+
+/// Fails after something was printed.
+fn fails_late(arguments: &[&str], phrase: &str) {
+    let output = tautline(arguments);
+    let message = text(&output.stderr);
+    assert!(output.status.code() == Some(1) && message.contains(phrase), "{message}");
 }
 
 #[test]

@@ -41,6 +41,9 @@ fn frame(world: World) -> Frame {
         plots: tautline::app::Plots::default(),
         trace: tautline::app::Trace::default(),
         touched: std::sync::Arc::default(),
+        companions: tautline::app::Companions::default(),
+        lab: tautline::app::Lab::default(),
+        trial: None,
     }
 }
 
@@ -56,7 +59,7 @@ fn bare() -> ViewOptions {
 fn shoot(gpu: &Gpu, picture: &Picture, points: [u32; 2], pixels_per_point: f32) -> Image {
     let mut renderer = Renderer::new(&gpu.device, FORMAT);
     let target = points.map(|side| (side as f32 * pixels_per_point) as u32);
-    render(gpu, &mut renderer, picture, &Viewport::whole(target, pixels_per_point), |_| {}).unwrap()
+    render(gpu, &mut renderer, picture, &Viewport::whole(target, pixels_per_point), |_| {}, |_| {}).unwrap()
 }
 
 fn shoot_world(gpu: &Gpu, world: &World, camera: &Camera, options: &ViewOptions, pixels_per_point: f32) -> Image {
@@ -446,7 +449,7 @@ fn nothing_is_drawn_outside_the_canvas() {
     picture.push_disc(white_disc([0.0, 0.0], 500.0));
     let mut renderer = Renderer::new(&gpu.device, FORMAT);
     let viewport = Viewport { corner: [10.0, 20.0], size: [30.0, 40.0], target: [64, 80], pixels_per_point: 1.0 };
-    let image = render(gpu, &mut renderer, &picture, &viewport, |_| {}).unwrap();
+    let image = render(gpu, &mut renderer, &picture, &viewport, |_| {}, |_| {}).unwrap();
     for y in 0..80 {
         for x in 0..64 {
             let inside = (10..40).contains(&x) && (20..60).contains(&y);
@@ -455,7 +458,7 @@ fn nothing_is_drawn_outside_the_canvas() {
     }
     // A canvas wholly off the target, as during a resize, draws nothing and breaks nothing.
     let viewport = Viewport { corner: [100.0, 0.0], ..viewport };
-    let image = render(gpu, &mut renderer, &picture, &viewport, |_| {}).unwrap();
+    let image = render(gpu, &mut renderer, &picture, &viewport, |_| {}, |_| {}).unwrap();
     assert_eq!(differing(&image, picture.background()), 0);
 }
 
@@ -466,9 +469,16 @@ fn a_hook_draws_over_the_scene() {
     let mut picture = Picture::new();
     picture.push_disc(white_disc([0.0, 0.0], 500.0));
     let red = Colour::hex(0xFF0000);
-    let image = render(gpu, &mut renderer, &picture, &Viewport::whole([16, 16], 1.0), |canvas| {
-        drop(begin_scene(canvas.encoder, canvas.target, red));
-    });
+    let image = render(
+        gpu,
+        &mut renderer,
+        &picture,
+        &Viewport::whole([16, 16], 1.0),
+        |_| {},
+        |canvas| {
+            drop(begin_scene(canvas.encoder, canvas.target, red));
+        },
+    );
     assert_eq!(differing(&image.unwrap(), red), 0);
 }
 
@@ -493,7 +503,7 @@ fn a_picture_of_an_impossible_size_or_path_is_refused_with_a_reason() {
     let mut renderer = Renderer::new(&gpu.device, FORMAT);
     let picture = Picture::new();
     for target in [[0, 10], [10, 1_000_000]] {
-        let error = render(gpu, &mut renderer, &picture, &Viewport::whole(target, 1.0), |_| {}).unwrap_err();
+        let error = render(gpu, &mut renderer, &picture, &Viewport::whole(target, 1.0), |_| {}, |_| {}).unwrap_err();
         assert!(error.to_string().contains("each side must be between 1 and"), "{error}");
     }
     let image = shoot(gpu, &picture, [8, 8], 1.0);

@@ -7,12 +7,17 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, HarnessBuilder, SnapshotOptions, SnapshotResults};
 use std::sync::Arc;
 use std::time::Instant;
+use tautline::app::companion::{Gap, Offsets, Parting, Report, Standing};
+use tautline::app::laboratory::Stage as LabStage;
 use tautline::app::{Camera, Command, Edit, Frame, Plots, Sample, SceneInfo, Spawn, Speed, Tool, keys, pick};
+use tautline::app::{Companion, Companions, Lab, LabOrder, LabReport};
 use tautline::engine::{
     Body, Constraint, DVec2, Divergence, Id, Integrator, Kind, Method, Solver, Spin, StepReport, World,
 };
+use tautline::lab::{ErrorKind, Point, Progress, Setting};
 use tautline::measure::Measures;
 use tautline::scene;
+use tautline::trial::{Line, State, Verdict};
 use tautline::ui::state::PlotTab;
 use tautline::ui::{Ranges, Shell, Theme};
 
@@ -160,6 +165,9 @@ fn bridge() -> Frame {
         undo: Some("Cut".into()),
         redo: None,
         touched: Arc::default(),
+        companions: tautline::app::Companions::default(),
+        lab: tautline::app::Lab::default(),
+        trial: None,
     }
 }
 
@@ -655,7 +663,270 @@ fn every_widget_has_a_name_and_a_tooltip() {
             seen += 1;
         }
     }
+    harness.state_mut().frame = Arc::new(accompanied());
+    harness.state_mut().shell.state_mut().rival = true;
+    harness.run();
+    harness.state_mut().frame = Arc::new(Frame { lab: measured(LabStage::Stopped).lab, ..accompanied() });
+    harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
+    harness.run();
+    for node in harness.root().children_recursive() {
+        let node = node.accesskit_node();
+        if is_interactive(node.role()) && !node.is_hidden() {
+            let help = node.data().description().unwrap_or_default();
+            assert!(!help.trim().is_empty(), "{:?} {:?} has no tooltip", node.role(), node.label());
+            assert!(is_drawable(&harness, help), "a letter of {help:?} is in no font");
+        }
+    }
     assert!(seen > 200, "only {seen} widgets were looked at");
+}
+
+/// A frame with a truth 1.302 mm away and a rival that has parted.
+fn accompanied() -> Frame {
+    let (frame, ..) = pair();
+    let bodies = Arc::new(frame.world.bodies().id.clone());
+    let shift = vec![DVec2::new(0.0, -1.302e-3), DVec2::new(0.3, 0.1)];
+    let gap = |time: f64| Gap { time, rms: 1.302e-3 * time / 20.0, max: 4e-3 * time / 20.0, uncertainty: 2e-6 };
+    let gaps = (0..1200).map(|i| gap(f64::from(i) / 60.0));
+    let truth = Report {
+        generation: 1,
+        standing: Standing::Converged { to: 1e-6 },
+        length: 2.0,
+        gap: Some(gap(20.0)),
+        so_far: 7e-4,
+        offsets: Arc::new(Offsets { bodies, shift, turn: Vec::new() }),
+        ..Report::default()
+    };
+    let parting = Parting { time: 2.125, body: Id(1), here: DVec2::new(-1.0, 0.5), there: DVec2::new(-0.9, 0.4) };
+    let rival = Report {
+        generation: 1,
+        standing: Standing::Following,
+        length: 2.0,
+        gap: Some(Gap { uncertainty: 0.0, ..gap(20.0) }),
+        parting: Some(parting),
+        frame: Some(Arc::new(frame.clone())),
+        ..Report::default()
+    };
+    let companions =
+        Companions { truth: Some(Companion::fixed(truth, gaps.clone())), rival: Some(Companion::fixed(rival, gaps)) };
+    Frame { companions, ..frame }
+}
+
+#[test]
+fn the_ghost_is_asked_for_once_and_ended_by_the_same_key() {
+    let mut harness = harness(bridge());
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::H);
+    harness.run();
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::Truth(true)]));
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::H);
+    harness.run();
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::Truth(false)]));
+}
+
+#[test]
+fn the_distance_from_the_truth_carries_its_error_and_so_does_a_selected_body() {
+    let mut harness = harness(accompanied());
+    harness.state_mut().shell.state_mut().view.ghost = true;
+    let body = harness.state().frame.world.bodies().id[0];
+    harness.state_mut().shell.select(vec![body]);
+    harness.run();
+    for text in [
+        "1.302 ± 0.002 mm RMS (0.0651 %), 4.00 mm max (0.200 %)",
+        "x −1.0000 ± 0.0013 m, y 0.0 ± 1.3 mm",
+        "converged to 1e−6",
+    ] {
+        assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
+    }
+    let chaotic =
+        Report { generation: 1, standing: Standing::Parted { after: 2.1, chaotic: true }, ..Report::default() };
+    let frame = Arc::make_mut(&mut harness.state_mut().frame);
+    frame.companions.truth = Some(Companion::fixed(chaotic, []));
+    harness.run();
+    assert!(harness.query_all_by_label_contains("none: chaotic after 2.10 s").next().is_some());
+}
+
+#[test]
+fn side_by_side_the_panes_are_alike_and_the_method_of_the_second_is_chosen() {
+    let mut harness = harness(accompanied());
+    let (whole, scale) = (harness.state().canvas.width(), harness.state().camera.scale);
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::B);
+    harness.run();
+    let commands = taken(&mut harness);
+    let by_accuracy = |c: &Command| matches!(c, Command::Rival(Some(method)) if method.automatic);
+    assert!(commands.iter().any(by_accuracy), "a run by hand is first compared with one by accuracy: {commands:?}");
+    assert!((harness.state().canvas.width() - (whole - 2.0) / 2.0).abs() <= 1.0);
+    assert_eq!(harness.state().camera.scale, scale / 2.0);
+    assert!(harness.query_by_label("Rival canvas").is_some());
+    assert!(harness.query_all_by_label_contains("Seen to part at 2.12 s").next().is_some());
+    harness.get_by_label("B substeps").set_value_accesskit(9.0);
+    harness.run();
+    assert!(taken(&mut harness).iter().any(|c| matches!(c, Command::Rival(Some(Method { substeps: 9, .. })))));
+    harness.get_by_label("Side by side").click();
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::Rival(None)]));
+    assert_eq!(harness.state().camera.scale, scale);
+}
+
+#[test]
+fn a_drag_in_the_second_pane_moves_the_view_of_both() {
+    let mut harness = harness(accompanied());
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::B);
+    harness.run();
+    taken(&mut harness);
+    let before = harness.state().camera;
+    let pos = harness.get_by_label("Rival canvas").rect().center();
+    let press = |pos, pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    harness.event(Event::PointerMoved(pos));
+    harness.event(press(pos, true));
+    harness.run();
+    harness.event(Event::PointerMoved(pos + vec2(40.0, 0.0)));
+    harness.run();
+    harness.event(press(pos + vec2(40.0, 0.0), false));
+    harness.run();
+    let moved = (harness.state().camera.centre.x - before.centre.x) * before.scale;
+    assert!((moved + 40.0).abs() < 1e-6, "the view moved by {moved} points");
+    assert!(taken(&mut harness).is_empty());
+}
+
+#[test]
+fn the_pass_of_a_hard_case_is_shown_with_its_value_and_kept_for_the_list() {
+    let setup = scene::open("hard/ball_and_chain").expect("a shipped scene");
+    let limits = setup.pass.as_ref().expect("a hard case has a pass").limits.clone();
+    let line = |value| move |limit| Line { limit, value };
+    let lines = limits.into_iter().map(line(3.1e-9)).collect();
+    let verdict = Verdict { state: State::Running, time: 4.2, seconds: 10.0, lines };
+    let info = SceneInfo { name: setup.name.clone(), opened: 5, ..SceneInfo::default() };
+    let frame = Frame { scene: Arc::new(info), trial: Some(Arc::new(verdict.clone())), ..bridge() };
+    let mut harness = harness(frame);
+    harness.run();
+    for text in ["joint gap < 1 mm: 3.10 nm so far", "Pass: not yet, 4.2 of 10 s"] {
+        assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
+    }
+    let passed = Verdict { state: State::Passed, ..verdict };
+    Arc::make_mut(&mut harness.state_mut().frame).trial = Some(Arc::new(passed));
+    harness.run();
+    harness.state_mut().frame = Arc::new(bridge());
+    harness.run();
+    let verdicts = &harness.state().shell.state().verdicts;
+    assert_eq!(verdicts["hard/ball_and_chain"].state, State::Passed);
+}
+
+/// A frame whose lab has measured some points.
+fn measured(stage: LabStage) -> Frame {
+    let (frame, ..) = pair();
+    let settings = [
+        (Setting::BASELINE, 40.0, 3e-3),
+        (Setting::direct(Integrator::Rattle, 4), 12.0, 2e-5),
+        (Setting::direct(Integrator::EnergyMomentum, 4), 30.0, 8e-5),
+        (Setting::direct(Integrator::RungeKutta4, 4), 60.0, 4e-7),
+        (Setting::dial(1e-6), 25.0, 6e-8),
+        (Setting::dial(1e-9), 45.0, 5e-11),
+        (Setting::taylor(1e-12), 90.0, 3e-13),
+    ];
+    let point = |(setting, cost, error): (Setting, f64, f64)| Point {
+        scene: "pair".into(),
+        method: setting.family,
+        hz: setting.hz,
+        substeps: setting.substeps,
+        iterations: setting.iterations,
+        tolerance: setting.tolerance,
+        cpu_us_per_second: cost,
+        error: Some(error),
+        error_kind: ErrorKind::Stored,
+        violation_max: 1e-9,
+        energy_drift: 1e-8,
+    };
+    let report = LabReport {
+        scene: "pair".into(),
+        title: "Pair".into(),
+        seconds: 3.0,
+        stage,
+        progress: Some(Progress { done: 7, total: 96, seconds_left: 8.2 }),
+        reference: "stored truth".into(),
+        points: Arc::new(settings.map(point).to_vec()),
+        slow: 2,
+        saved: None,
+    };
+    Frame { lab: Lab::fixed(report), ..frame }
+}
+
+#[test]
+fn the_lab_starts_stops_resumes_and_exports() {
+    let order = |c: &Command| if let Command::Lab(order) = c { Some(order.clone()) } else { None };
+    let mut harness = harness(bridge());
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
+    harness.run();
+    harness.get_by_label("Start").click();
+    harness.run();
+    assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Start));
+    harness.state_mut().frame = Arc::new(measured(LabStage::Measuring));
+    harness.run();
+    for text in ["7 of 96, 9 s left", "7 points, 2 settings too slow. Against: stored truth, over 3 s."] {
+        assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
+    }
+    harness.get_by_label("Stop").click();
+    harness.run();
+    assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Stop));
+    harness.state_mut().frame = Arc::new(measured(LabStage::Stopped));
+    harness.run();
+    harness.get_by_label("Resume").click();
+    harness.run();
+    assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Resume));
+    harness.get_by_label("SVG").click();
+    harness.run();
+    assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Export("lab.svg".into())));
+}
+
+#[test]
+fn the_lab_says_what_to_use_and_a_click_on_a_point_loads_its_settings() {
+    let mut harness = harness(measured(LabStage::Finished));
+    harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
+    harness.run();
+    assert!(harness.query_by_label_contains("For an error of 1e-6 use Accuracy 1e-6").is_some());
+    harness.get_by_label("Wanted error").set_value_accesskit(1e-10);
+    harness.run();
+    assert!(harness.query_by_label_contains("For an error of 1e-10 use Accuracy 1e-9").is_some());
+    // The diagram's points are found by sweeping the pointer over it, as a hand would.
+    let panel = harness.state().canvas.left_bottom();
+    let mut loaded = Vec::new();
+    for i in 0..60 {
+        for j in 0..30 {
+            let pos = panel + vec2(340.0 + 7.0 * i as f32, 30.0 + 10.0 * j as f32);
+            click_at_once(&mut harness, pos);
+            loaded.extend(taken(&mut harness).into_iter().filter_map(|c| match c {
+                Command::Method(method) => Some(method),
+                _ => None,
+            }));
+        }
+    }
+    let by = |accuracy: f64| loaded.iter().any(|method| method.automatic && method.accuracy == accuracy);
+    assert!(by(1e-6) && by(1e-9), "{loaded:?}");
+    assert!(
+        loaded
+            .iter()
+            .any(|method| method.integrator == Integrator::Rattle && !method.automatic && method.substeps == 4)
+    );
+}
+
+/// A click in as few passes as possible.
+fn click_at_once(harness: &mut Harness<'_, Desk>, pos: Pos2) {
+    harness.event(Event::PointerMoved(pos));
+    harness.step();
+    for pressed in [true, false] {
+        harness.event(Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    harness.step();
 }
 
 #[test]
@@ -736,6 +1007,8 @@ fn what_the_view_shows_has_keys_and_is_found_by_name() {
         (Key::L, keys::Shown::Trails),
         (Key::G, keys::Shown::Grid),
         (Key::P, keys::Shown::Plots),
+        (Key::H, keys::Shown::Ghost),
+        (Key::B, keys::Shown::Rival),
     ] {
         harness.key_press_modifiers(Modifiers::SHIFT, key);
         harness.run();
@@ -795,7 +1068,9 @@ fn tab_hides_the_panels_while_the_canvas_has_the_keyboard() {
 #[test]
 fn every_tab_of_the_plots_shows_its_unit() {
     let mut harness = harness(bridge());
-    for (tab, legend) in [("Energy", "Total"), ("Error", "Penetration"), ("Step time", "Budget")] {
+    for (tab, legend) in
+        [("Energy", "Total"), ("Error", "Penetration"), ("Distance", "to see distances"), ("Step time", "Budget")]
+    {
         harness
             .query_all_by_label(tab)
             .find(|node| node.accesskit_node().role() == Role::Button)
@@ -868,6 +1143,13 @@ fn the_shell_looks_as_it_did() {
         harness.state_mut().shell.state_mut().plot = PlotTab::Violation;
     });
     album.add("shell_fault", lost(), 1.0, |_| {});
+    album.add("shell_side_by_side", accompanied(), 1.0, |harness| {
+        let state = harness.state_mut().shell.state_mut();
+        (state.view.ghost, state.rival, state.plot) = (true, true, PlotTab::Distance);
+    });
+    album.add("shell_lab", measured(LabStage::Measuring), 1.0, |harness| {
+        harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
+    });
     album.add("shell_help", bridge(), 1.0, |harness| harness.key_press(Key::F1));
     album.add("shell_finder", bridge(), 1.0, |harness| {
         harness.key_press_modifiers(Modifiers::COMMAND, Key::K);

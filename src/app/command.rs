@@ -1,5 +1,6 @@
 //! What the window asks of the simulation thread. Commands are queued and carried out in order, between two steps.
 
+use super::laboratory::LabOrder;
 use crate::engine::{Body, Constraint, DVec2, Id, Kind, Method, Tuning, Wall};
 
 /// A request to the simulation thread.
@@ -22,6 +23,12 @@ pub enum Command {
     Gravity(DVec2),
     Drag(f64),
     Tuning(Tuning),
+    /// Lets the truth follow the simulation, or no longer.
+    Truth(bool),
+    /// Lets a rival under this method follow the simulation, gives it this method, or ends it.
+    Rival(Option<Method>),
+    /// Has the lab measure the open scene.
+    Lab(LabOrder),
     /// Takes hold of a body at a point of the world; replaces any hold.
     Grab {
         body: Id,

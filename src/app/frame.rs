@@ -1,9 +1,12 @@
 //! What the simulation thread publishes: one immutable picture of everything that the window shows.
 
+use super::companion::Companions;
+use super::laboratory::Lab;
 use super::plot_data::Plots;
 use super::trace::Trace;
 use crate::engine::{DVec2, Id, Method, StepReport, World};
 use crate::measure::Measures;
+use crate::trial::Verdict;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -62,4 +65,10 @@ pub struct Frame {
     pub redo: Option<String>,
     /// What the last edit made or changed; another `Arc` after every edit.
     pub touched: Arc<Vec<Id>>,
+    /// The truth and the rival, where they are wanted.
+    pub companions: Companions,
+    /// What the lab has measured.
+    pub lab: Lab,
+    /// How the scene's trial stands, if it has one.
+    pub trial: Option<Arc<Verdict>>,
 }

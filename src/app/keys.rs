@@ -30,6 +30,8 @@ pub enum Action {
     Tool(Tool),
     /// Shows or hides something.
     Toggle(Shown),
+    /// Opens the lab's panel.
+    Lab,
     /// Light or dark.
     ToggleTheme,
     Palette,
@@ -49,6 +51,8 @@ pub enum Shown {
     Trails,
     Grid,
     Plots,
+    Ghost,
+    Rival,
 }
 
 /// A key with the modifiers that must be held, and no others.
@@ -198,6 +202,24 @@ pub const ENTRIES: &[Entry] = &[
     entry(Action::Toggle(Shown::Trails), &[shift("L")], "Trails", "Where bodies were, fading."),
     entry(Action::Toggle(Shown::Grid), &[shift("G")], "Grid", "Lines at round distances, with units [m]."),
     entry(Action::Toggle(Shown::Plots), &[shift("P")], "Plots", "Energy, error and step time at the bottom."),
+    entry(
+        Action::Toggle(Shown::Ghost),
+        &[shift("H")],
+        "Ghost",
+        "The exact motion drawn translucently with the simulation, and how far the simulation is from it.",
+    ),
+    entry(
+        Action::Toggle(Shown::Rival),
+        &[shift("B")],
+        "A | B",
+        "The same scene and the same inputs under another method, side by side.",
+    ),
+    entry(
+        Action::Lab,
+        &[ctrl("L")],
+        "Lab",
+        "Error over cost of every method on this scene, measured in the background.",
+    ),
     entry(Action::ToggleTheme, &[shift("D")], "Theme", "Changes between dark and light."),
     entry(Action::Palette, &[ctrl("K")], "Find an action", "Lists every action with its shortcut; type to find one."),
     entry(Action::Help, &[key("F1")], "Help", "Lists every action with its shortcut."),

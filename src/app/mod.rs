@@ -3,11 +3,13 @@
 
 pub mod camera;
 pub mod command;
+pub mod companion;
 pub mod drawn;
 pub mod edit;
 pub mod frame;
 pub mod history;
 pub mod keys;
+pub mod laboratory;
 pub mod pick;
 pub mod plot_data;
 pub mod session;
@@ -18,10 +20,12 @@ pub mod trace;
 
 pub use camera::Camera;
 pub use command::{Command, Edit, Spawn};
+pub use companion::{Companion, Companions};
 pub use frame::{Frame, SceneInfo, Speed};
 pub use keys::Action;
+pub use laboratory::{Lab, LabOrder, LabReport};
 pub use plot_data::{Plots, Sample};
 pub use session::Session;
-pub use simulation::frame_after;
+pub use simulation::{Beside, frame_after};
 pub use tools::{Button, Feedback, Join, Modifiers, Phase, PointerEvent, Tool, Tools};
 pub use trace::Trace;

@@ -26,12 +26,15 @@ const SPEED_WINDOW: Duration = Duration::from_millis(500);
 const FAREWELL: Duration = Duration::from_secs(1);
 
 impl Session {
-    /// Starts a thread that runs `setup`. `wake` is called in that thread after each new frame, to have the window drawn.
+    /// Starts a thread that runs `setup`. `wake` is called in that thread after each new frame, to have the window drawn, and
+    /// clones of it in the threads of companions when they have something new to show.
     ///
     /// # Errors
     /// If the system has no room for another thread.
-    pub fn start(setup: Setup, wake: impl Fn() + Send + 'static) -> std::io::Result<Session> {
-        let mut simulation = Simulation::new(setup);
+    pub fn start(setup: Setup, wake: impl Fn() + Clone + Send + 'static) -> std::io::Result<Session> {
+        let companions_wake = wake.clone();
+        let waker = move || Box::new(companions_wake.clone()) as Box<dyn Fn() + Send>;
+        let mut simulation = Simulation::new(setup, Box::new(waker));
         let latest = Arc::new(Mutex::new(simulation.publish(0, simulation.speed())));
         let (commands, inbox) = channel();
         let (end, ended) = channel();

@@ -1,15 +1,18 @@
 //! The simulation without its thread: the world, its stepper and its history, and what every command does to them.
 
 use super::command::{Command, Edit};
+use super::companion::{Beginning, Input, Links, Report, Standing, Waker};
 use super::edit;
 use super::frame::{Frame, SceneInfo, Speed};
 use super::history::{History, State};
+use super::laboratory::{Job, LabOrder, Laboratory};
 use super::plot_data::{Plots, Sample};
 use super::trace::Trace;
 use super::{pick, setting};
 use crate::engine::{DVec2, EngineError, Grip, Id, Method, StepReport, Stepper, World};
 use crate::measure::Measures;
 use crate::scene::{self, Setup};
+use crate::trial::Trial;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
@@ -46,10 +49,18 @@ pub(super) struct Simulation {
     opened: u64,
     /// The last frame that was published: a whole state to go back to.
     published: Option<Arc<Frame>>,
+    /// The worlds that follow this one.
+    links: Links,
+    laboratory: Laboratory,
+    waker: Waker,
+    /// Nothing but the method was changed since the scene was opened.
+    untouched: bool,
+    trial: Option<Trial>,
 }
 
 impl Simulation {
-    pub(super) fn new(setup: Setup) -> Simulation {
+    /// A simulation of `setup`; `waker` makes what its companions call when they have something new to show.
+    pub(super) fn new(setup: Setup, waker: Waker) -> Simulation {
         let (stepper, fault) = stepper(setup.method);
         let start = Arc::new(setup);
         Simulation {
@@ -71,6 +82,11 @@ impl Simulation {
             touched: Arc::default(),
             opened: 1,
             published: None,
+            links: Links::default(),
+            laboratory: Laboratory::default(),
+            waker,
+            untouched: true,
+            trial: Trial::of(&start),
             start,
         }
     }
@@ -121,6 +137,9 @@ impl Simulation {
             undo: self.history.undo_name().map(str::to_owned),
             redo: self.history.redo_name().map(str::to_owned),
             touched: self.touched.clone(),
+            companions: self.links.companions(),
+            lab: self.laboratory.lab(),
+            trial: self.trial.as_ref().map(|trial| trial.verdict().clone()),
         }
     }
 
@@ -134,10 +153,15 @@ impl Simulation {
         let report = self.stepper.step(&mut self.world);
         if let Some(divergence) = &report.divergence {
             self.halt(divergence.to_string());
+            self.trial.iter_mut().for_each(Trial::lost);
         } else {
             self.measures = Measures::of(&self.world);
             self.plots.push(Sample::new(self.measures, &report));
             self.trace.push(&self.world);
+            self.links.step(&self.world);
+            if let Some(trial) = &mut self.trial {
+                trial.observe(&self.world, &self.measures, &report);
+            }
         }
         self.report = report;
     }
@@ -209,27 +233,48 @@ impl Simulation {
             }
             Command::Method(method) => {
                 let name = setting::method(self.stepper.method(), &method);
+                let rate = (self.stepper.method().hz != method.hz).then_some(Input::Rate(method.hz));
                 self.set(name, setting, |now| now.stepper.set_method(method)).map_err(text)?;
+                rate.iter().for_each(|rate| self.tell(rate));
             }
             Command::Gravity(gravity) => {
                 let name = (self.world.gravity() != gravity).then_some("gravity");
                 self.set(name, setting, |now| now.world.set_gravity(gravity)).map_err(text)?;
+                name.iter().for_each(|_| self.tell(&Input::Gravity(gravity)));
             }
             Command::Drag(drag) => {
                 let name = (self.world.drag() != drag).then_some("air drag");
                 self.set(name, setting, |now| now.world.set_drag(drag)).map_err(text)?;
+                name.iter().for_each(|_| self.tell(&Input::Drag(drag)));
             }
             Command::Tuning(tuning) => {
                 let name = setting::tuning(&self.world.tuning(), &tuning);
                 self.set(name, setting, |now| now.world.set_tuning(tuning)).map_err(text)?;
+                name.iter().for_each(|_| self.tell(&Input::Tuning(tuning)));
             }
+            Command::Truth(on) => {
+                let beginning = self.beginning();
+                self.links.set_truth(on, beginning, &self.waker).map_err(|error| no_thread("truth", &error))?;
+            }
+            Command::Rival(method) => {
+                if let Some(method) = &method {
+                    method.validate().map_err(text)?;
+                }
+                let beginning = self.beginning();
+                self.links.set_rival(method, beginning, &self.waker).map_err(|error| no_thread("rival", &error))?;
+            }
+            Command::Lab(order) => self.order(order)?,
             Command::Grab { body, at } => self.grab(body, at).map_err(text)?,
             Command::MoveGrip(target) => {
                 if let Some(grip) = self.world.grip().copied() {
                     self.world.set_grip(Some(Grip { target, ..grip })).map_err(text)?;
+                    self.tell(&Input::Move(target));
                 }
             }
-            Command::Release => self.world.set_grip(None).map_err(text)?,
+            Command::Release => {
+                self.world.set_grip(None).map_err(text)?;
+                self.tell(&Input::Release);
+            }
             Command::Edit(edit) => self.edit(&edit)?,
             Command::Undo => {
                 let now = self.state();
@@ -247,6 +292,44 @@ impl Simulation {
             Command::Quit => self.running = false,
         }
         Ok(())
+    }
+
+    fn order(&mut self, order: LabOrder) -> Result<(), String> {
+        match order {
+            LabOrder::Start => {
+                let mut touched = (!self.untouched).then(|| self.world.clone());
+                // A hand is no part of a scene.
+                touched.iter_mut().for_each(|world| world.set_grip(None).expect("letting go is always possible"));
+                let job = Job { setup: self.start.clone(), touched, method: *self.stepper.method() };
+                self.laboratory.start(job, &self.waker).map_err(|error| no_thread("lab", &error))
+            }
+            LabOrder::Stop => {
+                self.laboratory.stop();
+                Ok(())
+            }
+            LabOrder::Resume => self.laboratory.resume(&self.waker).map_err(|error| no_thread("lab", &error)),
+            LabOrder::Export(path) => self.laboratory.export(&path).map_err(|error| error.to_string()),
+        }
+    }
+
+    /// Tells the companions what was done to the world.
+    fn tell(&mut self, input: &Input) {
+        self.links.input(input);
+        if input.touches() {
+            self.untouched = false;
+            self.trial.iter_mut().for_each(Trial::void);
+        }
+    }
+
+    /// Where a companion would begin to follow now.
+    fn beginning(&self) -> Beginning {
+        Beginning {
+            world: self.world.clone(),
+            start: self.start.clone(),
+            scene: self.scene.clone(),
+            untouched: self.untouched,
+            hz: self.stepper.method().hz,
+        }
     }
 
     fn state(&self) -> State {
@@ -292,6 +375,7 @@ impl Simulation {
         match edit::apply(&mut self.world, edit) {
             Ok(touched) if touched.is_empty() => {}
             Ok(touched) => {
+                self.tell(&Input::of_edit(edit, &touched));
                 self.touched = Arc::new(touched);
                 self.saved = None;
                 self.history.record(edit.name(), before);
@@ -321,6 +405,13 @@ impl Simulation {
         self.saved = None;
         self.report = StepReport::default();
         self.measure_anew();
+        // A state from the history may be of an untouched run, but only its start is known to be.
+        self.untouched = self.world.tick() == self.start.world.tick() && self.world == self.start.world;
+        self.trial = Trial::of(&self.start).filter(|_| self.untouched);
+        if self.links.any() {
+            let beginning = self.beginning();
+            self.links.begin(&beginning);
+        }
     }
 
     fn measure_anew(&mut self) {
@@ -334,18 +425,57 @@ impl Simulation {
         let index = self.world.bodies().index_of(id).ok_or(EngineError::NoBody(id))?;
         let local = self.world.to_local(index, at);
         let mass = self.world.bodies().mass[index];
-        self.world.set_grip(Some(Grip::new(id, local, at, mass)))
+        let grip = Grip::new(id, local, at, mass);
+        self.world.set_grip(Some(grip))?;
+        self.tell(&Input::Hold(grip));
+        Ok(())
     }
 }
 
 /// The frame of a scene after `seconds` of simulated time (rounded to whole steps), stepped here and now, without a thread. If
 /// the run diverges, the last good one, with the fault.
-pub fn frame_after(setup: Setup, seconds: f64) -> Arc<Frame> {
-    let mut simulation = Simulation::new(setup);
+///
+/// What is wanted beside it has caught up then, or is given up after a minute.
+pub fn frame_after(setup: Setup, seconds: f64, beside: &Beside) -> Arc<Frame> {
+    let mut simulation = Simulation::new(setup, Box::new(|| Box::new(|| ())));
+    if beside.truth {
+        simulation.apply(Command::Truth(true));
+    }
+    if let Some(method) = beside.rival {
+        simulation.apply(Command::Rival(Some(method)));
+    }
     while simulation.running && simulation.time() + 0.5 * simulation.step_seconds() <= seconds {
         simulation.step();
     }
-    simulation.publish(0, simulation.speed())
+    let frame = simulation.publish(0, simulation.speed());
+    let deadline = Instant::now() + CATCHING_UP;
+    let companions = [&frame.companions.truth, &frame.companions.rival];
+    for companion in companions.into_iter().flatten() {
+        let behind = |report: &Report| {
+            report.tick < frame.world.tick() && !matches!(report.standing, Standing::Lost(_))
+                || report.standing == Standing::Waiting
+        };
+        while behind(&companion.report()) && Instant::now() < deadline {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+    frame
+}
+
+/// How long a picture waits for the companions of its scene.
+const CATCHING_UP: Duration = Duration::from_secs(60);
+
+/// What a picture shows beside the simulation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Beside {
+    /// The truth, as a ghost.
+    pub truth: bool,
+    /// The same scene under this method.
+    pub rival: Option<Method>,
+}
+
+fn no_thread(what: &str, error: &std::io::Error) -> String {
+    format!("the {what} cannot be started: {error}. Close other programs and try again.")
 }
 
 /// A stepper with a clock; if the method cannot be used, the default one and why.
@@ -395,8 +525,9 @@ mod tests {
             names: Default::default(),
             view: None,
             truth: None,
+            pass: None,
         };
-        let mut simulation = Simulation::new(setup);
+        let mut simulation = Simulation::new(setup, Box::new(|| Box::new(|| ())));
         simulation.step();
         let shown = simulation.publish(1, 1.0);
         simulation.guard(|simulation| {

@@ -15,12 +15,15 @@ pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
 #[cfg(feature = "desktop")]
 pub(super) fn shot(arguments: &ShotArguments) -> anyhow::Result<()> {
     let setup = crate::scene::open(&arguments.scene)?;
+    let by = |accuracy| crate::engine::Method { automatic: true, accuracy, ..setup.method };
+    let beside = crate::app::Beside { truth: arguments.ghost, rival: arguments.beside.map(by) };
     let options = crate::window::ShotOptions {
         at: arguments.at,
         size: arguments.size,
         path: arguments.file.clone(),
         light: arguments.theme == "light",
         whole_window: arguments.window,
+        beside,
     };
     crate::window::shot(setup, &options)
 }

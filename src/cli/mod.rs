@@ -1,7 +1,9 @@
-//! The command line: what can be asked for, and who answers. Exit codes: 0 done, 1 failed, 2 not understood.
+//! The command line: what can be asked for, and who answers. Exit codes: 0 done, 1 failed, 2 not understood, 130 stopped
+//! with Ctrl-C.
 
 mod check;
 mod desktop;
+mod lab;
 mod numbers;
 mod output;
 pub mod run;
@@ -32,6 +34,7 @@ pub enum Command {
         scene: String,
     },
     Run(run::RunArguments),
+    Lab(lab::LabArguments),
     /// Lists the shipped scenes: those of the sandbox, and those whose exact motion is known.
     Scenes,
     Check(check::CheckArguments),
@@ -59,6 +62,12 @@ pub struct ShotArguments {
     /// Draw the whole sandbox, panels included
     #[arg(long)]
     pub window: bool,
+    /// Draw the truth as well, translucently
+    #[arg(long)]
+    pub ghost: bool,
+    /// Draw beside it the same scene by this accuracy, 1e-14 to 0.1
+    #[arg(long, value_name = "TOL", value_parser = numbers::accuracy)]
+    pub beside: Option<f64>,
 }
 
 /// Does what was asked for.
@@ -67,6 +76,7 @@ pub fn execute(arguments: Arguments) -> anyhow::Result<ExitCode> {
         None => desktop::open(None)?,
         Some(Command::Open { scene }) => desktop::open(Some(&scene))?,
         Some(Command::Run(arguments)) => run::execute(&arguments)?,
+        Some(Command::Lab(arguments)) => return lab::execute(&arguments),
         Some(Command::Scenes) => scenes::execute()?,
         Some(Command::Check(arguments)) => return check::execute(&arguments),
         Some(Command::Truth(arguments)) => truth::execute(&arguments)?,

@@ -1,6 +1,8 @@
 //! Numbers of the command line: durations, sizes, counts, with errors that say what is accepted.
 
+use crate::lab::{Family, rate_fits};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// The longest run that is accepted [s]: over eleven days.
 const LONGEST: f64 = 1e6;
@@ -46,6 +48,35 @@ pub(super) fn baumgarte(text: &str) -> Result<f64, String> {
 /// Wanted accuracy.
 pub(super) fn accuracy(text: &str) -> Result<f64, String> {
     number(text, 1e-14, 0.1, "a number from 1e-14 to 0.1")
+}
+
+/// Steps a second that meet the samples of a reference [Hz].
+pub(super) fn rate(text: &str) -> Result<f64, String> {
+    const EXPECTED: &str = "a multiple of 60 up to 100000, or one of 30, 20, 15, 12, 10, 6, 5, 4, 3, 2, 1";
+    text.parse().ok().filter(|hz| rate_fits(*hz)).ok_or_else(|| format!("expected {EXPECTED} steps per second"))
+}
+
+/// Timed runs of a setting.
+pub(super) fn runs(text: &str) -> Result<usize, String> {
+    const EXPECTED: &str = "expected a whole number from 5 to 1000: the median of fewer runs says little";
+    text.parse().ok().filter(|runs| (5..=1000).contains(runs)).ok_or_else(|| EXPECTED.to_owned())
+}
+
+/// Time that may be spent.
+pub(super) fn budget(text: &str) -> Result<Duration, String> {
+    number(text, 1e-3, LONGEST, "a number of seconds from 0.001 to 1000000, such as 20").map(Duration::from_secs_f64)
+}
+
+/// A method of the lab.
+pub(super) fn family(text: &str) -> Result<Family, String> {
+    let all = || Family::ALL.map(Family::key).join(", ");
+    Family::find(text).ok_or_else(|| format!("expected some of {}", all()))
+}
+
+/// A picture that is text.
+pub(super) fn svg(text: &str) -> Result<String, String> {
+    let fits = text == "-" || text.to_ascii_lowercase().ends_with(".svg") || text.starts_with("/dev/");
+    fits.then(|| text.to_owned()).ok_or_else(|| "expected the name of an SVG file, such as diagram.svg, or -".into())
 }
 
 /// A picture's width and height [pixels].

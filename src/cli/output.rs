@@ -4,7 +4,7 @@ use crate::scene::behind_links;
 use anyhow::Context;
 use std::fmt::Display;
 use std::fs::{File, Metadata};
-use std::io::{BufWriter, ErrorKind, Write};
+use std::io::{BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// The name of standard output.
@@ -23,6 +23,18 @@ impl Output {
             return Ok(Output::stdout());
         }
         let file = File::create(Path::new(name)).with_context(|| format!("cannot create {name}"))?;
+        Ok(Output { name: name.to_owned(), inner: BufWriter::new(Box::new(file)) })
+    }
+
+    /// Opens the file `name`, cuts it after its first `keep` bytes and goes on there.
+    pub(super) fn append(name: &str, keep: u64) -> anyhow::Result<Output> {
+        let open = || -> std::io::Result<File> {
+            let mut file = File::options().write(true).open(name)?;
+            file.set_len(keep)?;
+            file.seek(SeekFrom::End(0))?;
+            Ok(file)
+        };
+        let file = open().with_context(|| format!("cannot go on with {name}"))?;
         Ok(Output { name: name.to_owned(), inner: BufWriter::new(Box::new(file)) })
     }
 

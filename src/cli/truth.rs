@@ -2,8 +2,8 @@
 
 use super::output::Output;
 use crate::measure::error_against;
-use crate::scene::{self, Setup};
-use crate::truth::{self, Trajectory};
+use crate::scene::{self, Setup, Truth};
+use crate::truth::{self, ClosedForm, Trajectory};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -11,7 +11,8 @@ use std::time::Instant;
 /// Computes the exact motion of a scene, and says how well it is known and how far the stored one is from it.
 ///
 /// The scene must have an entry such as `truth: (seconds: 10, length: 1)`, and nothing but particles, rods and springs that
-/// do not touch. Agreement is the RMS distance of two runs of different tolerance, divided by the length. Takes from
+/// do not touch. Where the entry names a closed form, as in `truth: (seconds: 3, length: 1, form: Bounce)`, the motion comes from
+/// that, and is compared with the computed one if both can be had. Agreement is the RMS distance of two runs of different tolerance, divided by the length. Takes from
 /// milliseconds to several minutes a scene in an optimised build.
 #[derive(Debug, clap::Args)]
 #[command(group(clap::ArgGroup::new("what").required(true).args(["scene", "all"])))]
@@ -24,6 +25,9 @@ pub struct TruthArguments {
     /// Write what was computed into this folder, a file NAME.truth for each scene; in the sources that is scenes/truth
     #[arg(long, value_name = "FOLDER")]
     write: Option<PathBuf>,
+    /// Fail unless what was computed is, byte for byte, what is stored in the program
+    #[arg(long)]
+    check: bool,
 }
 
 pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
@@ -42,12 +46,26 @@ pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
                 "{name} has no truth: add `truth: (seconds: 10, length: 1)` to the scene, or name truth/rope"
             );
         };
+        if let Some(form) = span.form {
+            anyhow::ensure!(
+                arguments.write.is_none() && !arguments.check,
+                "{name} follows the closed form {}, which is never stored: leave out --write and --check",
+                form.name()
+            );
+            say_of_form(&setup, form, span)?;
+            continue;
+        }
         let started = Instant::now();
         let found = truth::converge(&setup.world, span.seconds, span.length).with_context(|| name.to_owned())?;
         say(&setup, &found, started.elapsed().as_secs_f64())?;
         if let Some(folder) = &arguments.write {
             write(folder, name, &found)?;
         }
+        anyhow::ensure!(
+            !arguments.check
+                || truth::stored(&setup.name).is_some_and(|stored| truth::to_bytes(&stored) == truth::to_bytes(&found)),
+            "{name}: what is stored is not what was computed: write it anew with --write scenes/truth"
+        );
     }
     Ok(())
 }
@@ -62,6 +80,20 @@ fn say(setup: &Setup, found: &Trajectory, seconds: f64) -> std::io::Result<()> {
         "{}: agreement {agreement:.1e}, {stored}, {samples} samples of {bodies} bodies in {seconds:.1} s",
         setup.name
     ))
+}
+
+/// What is known of a scene with a closed form, and how far the reference solver is from it where that has equations.
+fn say_of_form(setup: &Setup, form: ClosedForm, span: Truth) -> anyhow::Result<()> {
+    let exact = form.trajectory(&setup.world, span.seconds, span.length)?;
+    let check = match truth::converge(&setup.world, span.seconds, span.length) {
+        Ok(found) => error_against(&exact.positions, &found.positions, span.length)
+            .map_or("not comparable".to_owned(), |error| format!("the reference solver differs by {error:.1e}")),
+        Err(error) => error.to_string(),
+    };
+    let (samples, bodies) = (exact.positions.len(), setup.world.bodies().len());
+    let name = form.name();
+    Ok(Output::stdout()
+        .line(format_args!("{}: closed form {name}, {samples} samples of {bodies} bodies; {check}", setup.name))?)
 }
 
 fn write(folder: &Path, name: &str, found: &Trajectory) -> anyhow::Result<()> {

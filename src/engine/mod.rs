@@ -9,6 +9,7 @@ mod collide;
 pub mod constraint;
 pub mod error;
 pub mod id;
+mod impact;
 mod integrate;
 mod island;
 pub mod linalg;

@@ -29,6 +29,11 @@ const SECOND_ORDER: f64 = 6e-4;
 const ORDER_4: f64 = 1e-5;
 const FINEST_NYSTROM: f64 = 1e-11;
 
+/// Free bodies, static ones that they can touch among them, that are few enough to be carried from event to event: their cost a step
+/// grows with the square, and with the walls.
+const FEW: usize = 128;
+const FEW_WALLS: usize = 512;
+
 /// Loosest accuracy of methods of higher order. Steps of low order gain energy in swings that they hardly resolve, as those of light links
 /// under a heavy load; and it costs little more.
 const LOOSEST_SERIES: f64 = 1e-5;
@@ -56,6 +61,8 @@ pub struct Plan {
     pub(crate) joined: Vec<(u32, u32)>,
     /// Islands that nothing can touch, where the method takes them whole.
     pub(crate) islands: Vec<IslandPlan>,
+    /// Free bodies that can touch, carried from event to event.
+    pub(crate) few: Option<FewPlan>,
     /// Whether anything is left for the substep loop.
     pub(crate) rest: bool,
     /// By body: carried by an island.
@@ -88,6 +95,25 @@ pub(crate) struct IslandPlan {
     pub series_tolerance: f64,
     /// Steps within a step of the world, where the integrator does not find them itself.
     pub steps: Option<u32>,
+}
+
+/// Free bodies that can touch walls and each other, and nothing else that moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FewPlan {
+    /// Dense indices, ascending; static ones in their way included.
+    pub bodies: Vec<u32>,
+    /// How many of them are not static.
+    pub free: usize,
+    /// Error allowed in a step where motion is not in closed form, in parts of the smallest radius.
+    pub tolerance: f64,
+}
+
+impl FewPlan {
+    /// Whether the mouse holds one of them.
+    pub fn is_held(&self, world: &World) -> bool {
+        let held = world.grip.and_then(|grip| world.bodies.index_of(grip.body));
+        held.is_some_and(|index| self.bodies.binary_search(&(index as u32)).is_ok())
+    }
 }
 
 impl Plan {
@@ -125,6 +151,7 @@ impl Plan {
     /// Gives what nothing can touch to integrators that carry islands whole.
     fn find_islands(&mut self, world: &World, method: &Method) {
         self.islands.clear();
+        self.few = None;
         self.in_island.clear();
         self.in_island.resize(world.bodies.len(), false);
         self.integrator = method.integrator;
@@ -135,7 +162,12 @@ impl Plan {
         if method.integrator.is_direct() {
             self.integrator = Integrator::OF_CONTACTS;
         }
-        let smooth: Vec<Group> = partition(world).into_iter().filter(|group| self.smooth(world, group)).collect();
+        let mut groups = partition(world);
+        let few = groups.pop_if(|group| method.automatic && self.is_few(world, group));
+        let smooth: Vec<Group> = groups.into_iter().filter(|group| self.smooth(world, group)).collect();
+        if let Some(free) = few.filter(|_| self.without.binary_search(&smooth.len()).is_err()) {
+            self.carry_few(world, method, free);
+        }
         for (index, group) in smooth.into_iter().enumerate() {
             if self.without.binary_search(&index).is_err() {
                 group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
@@ -146,6 +178,30 @@ impl Plan {
         }
         let bodies = &world.bodies;
         self.rest = (0..bodies.len()).any(|i| !self.in_island[i] && bodies.motion[i] != Motion::Static);
+    }
+
+    /// Whether a group is of free bodies that can touch, few enough, and nothing else that moves can touch.
+    fn is_few(&self, world: &World, group: &Group) -> bool {
+        let bodies = 0..world.bodies.len() as u32;
+        let others = |body: &u32| group.bodies.binary_search(body).is_err() && self.touches(world, *body);
+        let is_static = |body: u32| world.bodies.motion[body as usize] == Motion::Static;
+        group.constraints.is_empty()
+            && group.bodies.iter().any(|body| self.touches(world, *body))
+            && bodies.clone().filter(others).all(is_static)
+            && group.bodies.len() + bodies.filter(others).count() <= FEW
+            && world.walls.len() <= FEW_WALLS
+    }
+
+    /// Gives free bodies to the stage that carries them from event to event.
+    fn carry_few(&mut self, world: &World, method: &Method, group: Group) {
+        let free = group.bodies.len();
+        group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
+        let carried = |body: &u32| self.in_island[*body as usize] || self.touches(world, *body);
+        let bodies = (0..world.bodies.len() as u32).filter(carried).collect();
+        let tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
+        self.few = Some(FewPlan { bodies, free, tolerance });
+        // Nothing else can touch.
+        (self.contacts, self.restitution) = (false, false);
     }
 
     /// Whether a body can touch anything.
@@ -319,6 +375,10 @@ impl Plan {
             sentence.push_str("; ");
             self.describe_islands(&mut sentence, method);
         }
+        if let Some(few) = &self.few {
+            let bodies = if few.free == 1 { "1 free body".to_string() } else { format!("{} free bodies", few.free) };
+            let _ = write!(sentence, "; {bodies} from impact to impact in closed form, contact forces solved directly");
+        }
         if (method.automatic || method.integrator.is_direct()) && self.rest {
             let bodies = (0..world.bodies.len()).filter(|i| !self.in_island[*i] && world.bodies.inverse_mass[*i] > 0.0);
             let _ = match bodies.count() {
@@ -330,6 +390,7 @@ impl Plan {
         let turns = self.spin || self.islands.iter().any(|island| island.turning > 0);
         sentence.push_str(if turns { "; rotations" } else { "; particles only" });
         sentence.push_str(match (self.contacts, self.restitution) {
+            _ if self.few.is_some() => ", the next impact is the first root of a gap",
             (false, _) => ", nothing can touch: no broad phase",
             (true, false) => ", contacts from a sorted grid",
             (true, true) => ", contacts from a sorted grid, impacts with restitution",

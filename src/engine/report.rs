@@ -64,6 +64,8 @@ pub struct StepReport {
     pub broad_phase_builds: u32,
     /// Impacts with restitution, summed over the substeps.
     pub impacts: usize,
+    /// Instants located on the motion of free bodies: impacts, ends of slides, ends of sides.
+    pub events: u32,
     /// Substeps of what can touch; 0 if all is carried by islands.
     pub substeps: u32,
     /// Steps of islands carried whole, the largest number of one island, and those taken back, all islands together.

@@ -305,7 +305,7 @@ impl Stepper {
         }
     }
 
-    fn store(&self, world: &mut World) {
+    fn store(&mut self, world: &mut World) {
         if self.plan.rest {
             self.state.store(world);
             world.contacts.clone_from(&self.contacts);
@@ -317,7 +317,7 @@ impl Stepper {
         if !self.plan.rest {
             world.contacts.clear();
         }
-        self.islands.store(world, self.method.step_seconds());
+        self.islands.store(world, &self.plan, self.method.step_seconds());
         world.advance_clock(self.method.hz);
     }
 
@@ -364,8 +364,8 @@ impl Stepper {
         report.tick = world.tick;
         report.bodies = world.bodies.len();
         report.constraints = world.constraints.len();
-        report.rows = self.plan.rows + 2 * self.contacts.len();
-        report.contacts = self.contacts.iter().filter(|contact| contact.normal_force > 0.0).count();
+        report.rows = self.plan.rows + 2 * world.contacts.len();
+        report.contacts = world.contacts.iter().filter(|contact| contact.normal_force > 0.0).count();
         report.stage_us = laps.stage_us;
         report.step_us = laps.total_us();
     }

@@ -1,9 +1,13 @@
 //! Measures of a world: energy by kind, momentum, how far constraints are violated and surfaces overlap,
 //! and of a motion: how far it is from the truth.
 
+mod drift;
 mod error;
+mod uncertain;
 
-pub use error::error_against;
+pub use drift::EnergyDrift;
+pub use error::{Distance, ErrorSum, error_against, observed_order};
+pub use uncertain::Uncertain;
 
 use crate::engine::constraint::Constraints;
 use crate::engine::{DVec2, Kind, World};
@@ -25,6 +29,8 @@ pub struct Measures {
     pub angular_momentum: f64,
     /// Worst violation of a rod, a taut rope or a pin [m].
     pub violation_max: f64,
+    /// Root mean square of the violations of all rods, ropes and pins, slack ropes counting as 0 [m].
+    pub violation_rms: f64,
     /// Deepest overlap of two surfaces [m].
     pub penetration_max: f64,
     /// Contacts whose surfaces touch or carry a force.
@@ -64,6 +70,7 @@ impl Measures {
 
     fn add_constraints(&mut self, world: &World) {
         let constraints: &Constraints = world.constraints();
+        let (mut sum, mut count) = (0.0, 0_u32);
         for (i, kind) in constraints.kind.iter().enumerate() {
             let (a, b) = world.ends(i);
             let distance = (b - a).length();
@@ -74,11 +81,14 @@ impl Measures {
                 Kind::Spring { rest, stiffness, .. } => {
                     let stretch = distance - rest;
                     self.elastic += 0.5 * stiffness * world.tuning().stiffness * stretch * stretch;
-                    0.0
+                    continue;
                 }
             };
             self.violation_max = self.violation_max.max(violation);
+            sum += violation * violation;
+            count += 1;
         }
+        self.violation_rms = (sum / f64::from(count.max(1))).sqrt();
     }
 
     fn add_contacts(&mut self, world: &World) {

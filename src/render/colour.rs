@@ -69,6 +69,8 @@ pub struct Palette {
     pub hover: Colour,
     pub contact: Colour,
     pub velocity: Colour,
+    /// The truth, translucent.
+    pub ghost: Colour,
     /// A cut, and a body at which the run diverged.
     pub warning: Colour,
     /// −1, −½, 0, ½, 1 of the diverging map.
@@ -101,6 +103,7 @@ const DARK: Palette = Palette {
     hover: Colour::hex(0xE6EAF0),
     contact: Colour::hex(0x4FD6A8),
     velocity: Colour::hex(0xE9C46A),
+    ghost: Colour::hex(0xB694FF),
     warning: Colour::hex(0xFF4F64),
     diverging: [
         Colour::hex(0x2F86FF),
@@ -137,6 +140,7 @@ const LIGHT: Palette = Palette {
     hover: Colour::hex(0x20252B),
     contact: Colour::hex(0x0B8A60),
     velocity: Colour::hex(0x8A6100),
+    ghost: Colour::hex(0x7A45D6),
     warning: Colour::hex(0xC9152E),
     diverging: [
         Colour::hex(0x0A55C4),

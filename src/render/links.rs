@@ -266,6 +266,9 @@ mod tests {
             undo: None,
             redo: None,
             touched: std::sync::Arc::default(),
+            companions: crate::app::Companions::default(),
+            lab: crate::app::Lab::default(),
+            trial: None,
         };
         let camera = Camera { centre: DVec2::ZERO, scale: 50.0, size: DVec2::new(400.0, 300.0) };
         let mut picture = Picture::new();

@@ -5,6 +5,7 @@
 
 mod bodies;
 pub mod colour;
+pub mod ghost;
 pub mod gpu;
 pub mod grid;
 pub mod legend;

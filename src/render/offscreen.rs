@@ -32,7 +32,7 @@ pub struct Canvas<'a> {
     pub target: &'a wgpu::TextureView,
 }
 
-/// Draws `picture` on its background, lets `hook` draw over it, and reads the result back.
+/// Draws `picture` on its background, `more` in the same pass, lets `hook` draw over it, and reads the result back.
 ///
 /// `renderer` must have been made for [`FORMAT`]. The viewport's target is the size of the picture.
 pub fn render(
@@ -40,6 +40,7 @@ pub fn render(
     renderer: &mut Renderer,
     picture: &Picture,
     viewport: &Viewport,
+    more: impl FnOnce(&mut wgpu::RenderPass<'_>),
     hook: impl FnOnce(&mut Canvas<'_>),
 ) -> Result<Image, OffscreenError> {
     let [width, height] = viewport.target;
@@ -61,7 +62,11 @@ pub fn render(
     let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
     renderer.prepare(&gpu.device, &gpu.queue, picture, viewport);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-    renderer.draw(&mut begin_scene(&mut encoder, &target, picture.background()));
+    {
+        let mut pass = begin_scene(&mut encoder, &target, picture.background());
+        renderer.draw(&mut pass);
+        more(&mut pass);
+    }
     hook(&mut Canvas { gpu, encoder: &mut encoder, target: &target });
     read_back(gpu, encoder, &texture, size)
 }

@@ -2,6 +2,7 @@
 
 use super::bodies::{Mobility, draw_bodies, speed_extreme};
 use super::colour::{Colour, Palette, Theme};
+use super::ghost::draw_ghost;
 use super::legend::SteadyRange;
 use super::links::{Layer, draw_joints, draw_links, tension_extreme};
 use super::marks::{BoxMark, DiscMark, Ends, LineMark, MarkKind, SpringMark};
@@ -37,6 +38,8 @@ pub struct Picture {
     opened: u64,
     trails: Trails,
     notes: Notes,
+    /// The ranges are those of another picture.
+    borrowed: bool,
 }
 
 /// What is looked up for each body, gathered once a picture.
@@ -119,8 +122,18 @@ impl Picture {
         (self.trails, self.notes) = (trails, notes);
     }
 
+    /// Takes over the ranges of `other`, so that a colour means the same in both: for a picture beside it. They are its own
+    /// again when it is built without.
+    pub fn borrow_ranges(&mut self, other: &Picture) {
+        self.ranges = other.ranges;
+        self.borrowed = true;
+    }
+
     /// Lets the ranges follow the frame: anew with every scene, and only upwards while nothing moves.
     fn follow(&mut self, frame: &Frame, extremes: [f64; 3]) {
+        if std::mem::take(&mut self.borrowed) {
+            return;
+        }
         if self.opened != frame.scene.opened {
             self.opened = frame.scene.opened;
             self.ranges = Default::default();
@@ -139,6 +152,7 @@ impl Picture {
         draw_grid(self, scene);
         draw_walls(self, scene);
         draw_trails(self, trails, scene);
+        draw_ghost(self, scene);
         draw_links(self, scene, Layer::Below);
         draw_bodies(self, scene, Mobility::Moving);
         draw_links(self, scene, Layer::Above);

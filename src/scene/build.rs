@@ -5,7 +5,9 @@ use super::document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Set
 use super::error::{Fault, Problem, SceneError};
 use super::generator::check_point;
 use super::names::Names;
+use super::pass::Pass;
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, Shape, Spin, Wall, World};
+use crate::truth::TruthError;
 
 /// The most bodies that a scene may have, those of its generators included. Beyond it a step takes seconds.
 pub const MOST_BODIES: u64 = 1_000_000;
@@ -38,6 +40,7 @@ impl Document {
         for (index, entry) in self.walls.iter().enumerate() {
             add_wall(&mut world, entry).map_err(|fault| fault.inside("walls", index))?;
         }
+        let truth = self.checked_truth(&world)?;
         Ok(Setup {
             name: name.to_owned(),
             title: if self.title.is_empty() { name.to_owned() } else { self.title.clone() },
@@ -46,7 +49,8 @@ impl Document {
             world,
             method: self.settings.method(),
             view: self.checked_view()?,
-            truth: self.checked_truth()?,
+            truth,
+            pass: self.checked_pass()?,
         })
     }
 
@@ -76,7 +80,30 @@ impl Document {
         Ok(Some((view.centre, view.height)))
     }
 
-    fn checked_truth(&self) -> Result<Option<Truth>, Fault> {
+    fn checked_pass(&self) -> Result<Option<Pass>, Fault> {
+        let Some(pass) = &self.pass else { return Ok(None) };
+        let in_pass = |fault: Fault| fault.within("pass");
+        if !(pass.seconds >= 1.0 / 60.0 && pass.seconds <= 3600.0) {
+            return Err(in_pass(Fault::value("seconds", pass.seconds, "a time between 1/60 and 3600 s")));
+        }
+        if pass.limits.is_empty() {
+            let problem = Problem::new("no limits", "at least one limit", "Write one, such as `limits: [Gap(1e-3)]`.");
+            return Err(in_pass(Fault::new(Some("limits"), problem)));
+        }
+        for (index, limit) in pass.limits.iter().enumerate() {
+            if !(limit.bound() > 0.0 && limit.bound() <= 1e12) {
+                let problem = Problem::new(
+                    format!("a limit of {:?}", limit.bound()),
+                    "a number above 0, 1e12 at most",
+                    "Change it; a limit is what a value must stay below.",
+                );
+                return Err(in_pass(Fault::new(None, problem).inside("limits", index)));
+            }
+        }
+        Ok(Some(pass.clone()))
+    }
+
+    fn checked_truth(&self, world: &World) -> Result<Option<Truth>, Fault> {
         let Some(truth) = self.truth else { return Ok(None) };
         let in_truth = |fault: Fault| fault.within("truth");
         if !(truth.seconds >= 1.0 / 60.0 && truth.seconds <= 3600.0) {
@@ -84,6 +111,12 @@ impl Document {
         }
         if !(truth.length >= 1e-9 && truth.length <= 1e9) {
             return Err(in_truth(Fault::value("length", truth.length, "a length between 1e-9 and 1e9 m")));
+        }
+        if let Some(form) = truth.form
+            && let Err(TruthError::Misfit { what, holds, .. }) = form.trajectory(world, truth.seconds, truth.length)
+        {
+            let problem = Problem::new(what, holds, "Change the scene, name another form, or remove `form`.");
+            return Err(in_truth(Fault::new(Some("form"), problem)));
         }
         Ok(self.truth)
     }

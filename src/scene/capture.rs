@@ -2,7 +2,7 @@
 
 use super::Setup;
 use super::document::{
-    BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, VERSION, View, WallEntry, is_zero_point,
+    BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, Truth, VERSION, View, WallEntry, is_zero_point,
 };
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, Shape, Wall, World};
 use std::collections::BTreeSet;
@@ -19,13 +19,19 @@ pub fn capture(setup: &Setup) -> Document {
         title: setup.title.clone(),
         about: setup.about.clone(),
         view: setup.view.map(|(centre, height)| View { centre, height }),
-        truth: setup.truth,
+        truth: setup.truth.filter(|truth| still_fits(world, truth)),
+        pass: setup.pass.clone(),
         settings: Settings::new(world.gravity(), world.drag(), world.tuning(), &setup.method),
         bodies: world.bodies().iter().enumerate().map(named).collect(),
         walls: world.walls().iter().map(wall_entry).collect(),
         generators: Vec::new(),
         constraints: constraints.map(|index| constraint_entry(world, &names, &world.constraint_at(index))).collect(),
     }
+}
+
+/// Whether the closed form that a scene names, if it names one, is still that of its world, which may have been edited.
+fn still_fits(world: &World, truth: &Truth) -> bool {
+    truth.form.is_none_or(|form| form.trajectory(world, truth.seconds, truth.length).is_ok())
 }
 
 /// Names by dense index: those of the scene's file, and others for the bodies that need one.

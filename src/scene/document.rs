@@ -1,7 +1,9 @@
 //! The scene as it stands in a file: every field of the format, its unit and its default.
 
 use super::generator::Generator;
+use super::pass::Pass;
 use crate::engine::{DVec2, Integrator, LinearSolver, Method, Motion, Solver, Tuning};
+use crate::truth::ClosedForm;
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -23,9 +25,13 @@ pub struct Document {
     /// What to show at first; everything if not given.
     #[serde(default, skip_serializing_if = "is_default")]
     pub view: Option<View>,
-    /// What its exact motion is compared over; only in scenes that have one: particles, rods and springs that never touch.
+    /// What its exact motion is compared over; only in scenes that have one: particles, rods and springs that never touch, or
+    /// what a closed form is for.
     #[serde(default, skip_serializing_if = "is_default")]
     pub truth: Option<Truth>,
+    /// What a run of it must keep to, as it opens; shown beside its name and tried by a test.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub pass: Option<Pass>,
     #[serde(default, skip_serializing_if = "is_default")]
     pub settings: Settings,
     #[serde(default, skip_serializing_if = "is_default")]
@@ -47,6 +53,7 @@ impl Default for Document {
             about: String::new(),
             view: None,
             truth: None,
+            pass: None,
             settings: Settings::default(),
             bodies: Vec::new(),
             walls: Vec::new(),
@@ -66,7 +73,8 @@ pub struct View {
     pub height: f64,
 }
 
-/// What a scene's exact motion is compared over: `truth: (seconds: 10, length: 1)`.
+/// What a scene's exact motion is compared over: `truth: (seconds: 10, length: 1)`, and the formula that it follows, if there is
+/// one: `truth: (seconds: 3, length: 1, form: Bounce)`. Without a formula it is what `tautline truth` computes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Truth {
@@ -74,6 +82,9 @@ pub struct Truth {
     pub seconds: f64,
     /// By which distances from the truth are divided [m].
     pub length: f64,
+    /// The formula of the motion; the world must be one that it is for.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub form: Option<ClosedForm>,
 }
 
 /// The surroundings, and how the world is stepped. The fields from `hz` on are those of [`Method`].

@@ -9,9 +9,11 @@ pub mod capture;
 pub mod document;
 pub mod error;
 pub mod generator;
+mod known;
 mod locate;
 mod names;
 mod nearest;
+mod pass;
 mod random;
 mod read;
 mod save;
@@ -22,9 +24,10 @@ pub use document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settin
 pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use generator::Generator;
+pub use pass::{Limit, Pass};
 pub use read::{LARGEST_FILE, open, parse, read_file};
 pub(crate) use save::behind_links;
-pub use save::{save, to_ron};
+pub use save::{save, save_text, to_ron};
 pub use shipped::{Shipped, every_scene, find_shipped, hard_scenes, sections, shipped, truth_scenes};
 
 use crate::engine::{DVec2, Id, Method, World};
@@ -45,4 +48,6 @@ pub struct Setup {
     pub view: Option<(DVec2, f64)>,
     /// What its exact motion is compared over, if it has one.
     pub truth: Option<Truth>,
+    /// What a run must keep to, if the scene is a trial of the engine.
+    pub pass: Option<Pass>,
 }

@@ -18,11 +18,16 @@ pub fn to_ron(document: &Document) -> String {
 /// Writes a document to `path`. The old file, if any, is replaced only when the new one is complete on disk; it keeps its
 /// permissions. A symbolic link stays one: what it leads to is replaced.
 pub fn save(path: &Path, document: &Document) -> Result<(), SceneError> {
+    save_text(path, &to_ron(document))
+}
+
+/// Writes a text to `path`, in the same way.
+pub fn save_text(path: &Path, text: &str) -> Result<(), SceneError> {
     let refused = |problem: Problem| SceneError::file(path.display().to_string(), problem);
     let target = behind_links(path);
     let permissions = permissions_to_keep(&target).map_err(refused)?;
     let (part, file) = create_beside(&target).map_err(|error| refused(unwritable(&error)))?;
-    let written = write_whole(file, permissions, &to_ron(document)).and_then(|()| std::fs::rename(&part, &target));
+    let written = write_whole(file, permissions, text).and_then(|()| std::fs::rename(&part, &target));
     written.map_err(|error| {
         // What cannot be removed either is hidden, and the error at hand matters more.
         let _ = std::fs::remove_file(&part);
@@ -84,7 +89,7 @@ fn write_whole(mut file: File, permissions: Option<Permissions>, text: &str) -> 
     file.sync_all()
 }
 
-const PLACE: &str = "a place for the scene";
+const PLACE: &str = "a place for the file";
 
 fn unwritable(error: &std::io::Error) -> Problem {
     let (found, mend) = match error.kind() {

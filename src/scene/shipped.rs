@@ -1,5 +1,8 @@
 //! The scenes that come with the program, inside it.
 
+use super::document::Document;
+use super::pass::Pass;
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// A scene inside the program.
@@ -14,6 +17,15 @@ pub struct Shipped {
 }
 
 impl Shipped {
+    /// What a run of it must keep to, if it is a trial. Read once, all of them together.
+    pub fn pass(&self) -> Option<Pass> {
+        static PASSES: LazyLock<BTreeMap<&'static str, Pass>> = LazyLock::new(|| {
+            let read = |scene: &Shipped| Document::from_text(scene.name, scene.text).ok()?.pass;
+            every_scene().iter().filter_map(|scene| Some((scene.name, read(scene)?))).collect()
+        });
+        PASSES.get(self.name).cloned()
+    }
+
     /// Title of the section that it is listed in.
     pub fn section(&self) -> &'static str {
         sections().into_iter().find(|(_, scenes)| scenes.contains(self)).map_or("", |(title, _)| title)
@@ -87,12 +99,24 @@ pub fn hard_scenes() -> &'static [Shipped] {
         "hard/wheel": "Braced wheel",
         "hard/physical_pendulum": "Pinned disc",
         "hard/heavy_disc_chain": "A hundred kilograms on discs of ten grams",
+        "hard/bouncing_ball": "Bouncing balls",
+        "hard/restitution_row": "Restitution row",
+        "hard/bounce_box": "Bounce box",
+        "hard/two_body_exchange": "Two-body exchange",
+        "hard/cradle": "Row of five",
+        "hard/slide": "Slide",
+        "hard/roll": "Roll",
+        "hard/ramp_row": "Ramp row",
+        "hard/weighing": "Weighing",
+        "hard/circle_stack": "Circle stack",
+        "hard/bullet": "Bullet at a thin wall",
+        "hard/wedge": "Wedge",
     }
 }
 
 /// All scenes, section by section, as they are listed.
 pub fn sections() -> [(&'static str, &'static [Shipped]); 3] {
-    [("Sandbox", shipped()), ("Hard cases", hard_scenes()), ("Exact motion", truth_scenes())]
+    [("Sandbox", shipped()), ("Hard cases", hard_scenes()), ("Truth", truth_scenes())]
 }
 
 /// All scenes in one list.

@@ -1,7 +1,7 @@
 //! Carries out the actions of the table in `app::keys`, whether they come from a key, a button or the palette of actions.
 
 use super::shell::Shell;
-use super::state::{Field, Finder};
+use super::state::{Field, Finder, PlotTab};
 use crate::app::keys::{self, Shortcut};
 use crate::app::{Action, Camera, Command, Edit, Frame, pick};
 use crate::engine::{DVec2, Id, Motion};
@@ -52,6 +52,9 @@ impl Shell {
             Action::Toggle(what) => {
                 let on = self.state.shown(what);
                 *on = !*on;
+            }
+            Action::Lab => {
+                (self.state.panels, self.state.plots, self.state.plot) = (true, true, PlotTab::Lab);
             }
             Action::ToggleTheme => self.state.theme = self.state.theme.other(),
             Action::FullScreen => *scene.full_screen = true,

@@ -6,8 +6,8 @@ use crate::app::tools::{Button, Modifiers, Phase, PointerEvent, Tool, Tools};
 use crate::app::{Action, Camera, Command, Frame, pick};
 use crate::engine::DVec2;
 use egui::{
-    CursorIcon, Event, EventFilter, Id, MouseWheelUnit, PointerButton, Pos2, Rect, Response, Role, Sense, Ui,
-    WidgetInfo,
+    CursorIcon, Event, EventFilter, Id, MouseWheelUnit, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 /// Points of smooth scrolling that count as a notch of the wheel.
@@ -18,10 +18,45 @@ pub fn id() -> Id {
     Id::unique("scene canvas")
 }
 
-/// Takes all the room that is left. Returns where, and what happened there.
-pub fn allocate(ui: &mut Ui) -> Response {
+/// Takes all the room that is left: where the scene goes, and where its rival does, if it has one. Both are equally large.
+pub fn room(ui: &mut Ui, rival: bool) -> (Rect, Option<Rect>) {
     let rect = ui.available_rect_before_wrap();
     ui.advance_cursor_after_rect(rect);
+    if !rival {
+        return (rect, None);
+    }
+    let middle = rect.center().x;
+    let half = vec2(((rect.width() - BETWEEN) / 2.0).floor(), rect.height());
+    ui.painter().vline(middle, rect.y_range(), Stroke::new(BETWEEN, theme::colours(ui).line));
+    let left = Rect::from_min_size(rect.min, half);
+    (left, Some(Rect::from_min_size(pos2(rect.right() - half.x, rect.top()), half)))
+}
+
+/// The pane of the rival: the wheel, a pinch and a drag move the view of both.
+pub fn follow(ui: &Ui, rect: Rect, camera: &mut Camera) {
+    let response = ui.interact(rect, Id::unique("rival canvas"), Sense::drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Rival canvas"));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(RIVAL_HELP));
+    if response.dragged() {
+        camera.pan(point(response.drag_delta()));
+    }
+    let canvas = Canvas { ui, rect, blocked: ui.ctx().any_popup_open() };
+    for event in ui.input(|input| input.events.clone()) {
+        match event {
+            Event::MouseWheel { unit, delta, .. } => canvas.wheel(unit, delta.y, &Tools::default(), camera),
+            Event::Zoom(factor) => canvas.pinch(factor, camera),
+            _ => {}
+        }
+    }
+}
+
+/// Width of the line between two panes [points].
+const BETWEEN: f32 = 2.0;
+
+const RIVAL_HELP: &str = "The same scene under the other method. Drag or turn the wheel to move the view of both.";
+
+/// Lays the scene's widget into `rect`. Returns what happened there.
+pub fn allocate(ui: &Ui, rect: Rect) -> Response {
     let response = ui.interact(rect, id(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Scene canvas"));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(HELP));

@@ -1,5 +1,7 @@
 //! Numbers as a person reads them: three significant digits and a prefixed unit.
 
+use crate::measure::Uncertain;
+
 /// Where the smallest prefix ends: what rounds to 1 of it.
 const LEAST: f64 = 0.9995e-12;
 
@@ -64,6 +66,15 @@ pub fn digits(value: f64) -> String {
     }
 }
 
+/// A value and what it may be off by: "1.302 ± 0.002 mm". An error below a millionth of the value is left out, since every digit
+/// shown is certain then.
+pub fn with_error(value: f64, error: f64, unit: &str) -> String {
+    if !(error > 1e-6 * value.abs()) {
+        return si(value, unit);
+    }
+    Uncertain { value, error: Some(error) }.shown(unit)
+}
+
 /// `value` with at most `decimals` decimals and no trailing zeros.
 pub fn plain(value: f64, decimals: usize) -> String {
     let text = minus(format!("{value:.decimals$}"));
@@ -103,6 +114,15 @@ mod tests {
         assert_eq!(si(-4.03e-13, "J"), "<1 pJ");
         assert_eq!(si(0.9996e-12, "m"), "1.00 pm");
         assert_eq!(si(f64::NAN, "J"), "NaN J");
+    }
+
+    #[test]
+    fn an_error_that_no_digit_shows_is_left_out() {
+        assert_eq!(with_error(1.302e-3, 2e-6, "m"), "1.302 ± 0.002 mm");
+        assert_eq!(with_error(1.302, 1e-13, "m"), "1.30 m");
+        assert_eq!(with_error(1.302, 0.0, "m"), "1.30 m");
+        assert_eq!(with_error(0.0, 3e-3, "m"), "0 ± 3 mm");
+        assert_eq!(with_error(f64::NAN, 1.0, "m"), "NaN m");
     }
 
     #[test]

@@ -2,7 +2,9 @@
 //! graphics device; the scene itself is drawn below, in the rectangle that [`ShellOutput::canvas`] names.
 
 mod actions;
+mod badge;
 mod canvas;
+mod companions;
 mod draft;
 mod fault;
 pub mod finder;
@@ -10,6 +12,7 @@ pub mod format;
 mod help;
 mod icon;
 mod inspector;
+pub mod lab;
 mod overlay;
 mod palette;
 mod plots;

@@ -3,7 +3,8 @@
 use super::format::{digits, round_si, si};
 use super::state::View;
 use super::theme::{self, Colours, Theme};
-use super::{inspector, state};
+use super::{companions, inspector, state};
+use crate::app::companion::Report;
 use crate::app::{Camera, Frame, pick};
 use crate::engine::{DVec2, Id};
 use crate::render::grid::Axis;
@@ -33,6 +34,9 @@ const PADDING: f32 = 7.0;
 const MAP_WIDTH: f32 = 190.0;
 /// Height of the map itself [points].
 const BAR_HEIGHT: f32 = 7.0;
+
+/// Radius of the ring where two panes parted [points].
+const PARTING_RADIUS: f32 = 9.0;
 
 /// Everything that is written over the scene.
 pub struct Overlay<'a> {
@@ -71,6 +75,35 @@ impl Overlay<'_> {
             let galley = painter.layout_no_wrap(label, FontId::proportional(theme::SMALL), colours.text);
             let width = VELOCITY_ARROW as f32 + 8.0 + galley.size().x + 2.0 * PADDING;
             shelf.take(width).inspect(|plate| self.velocity_legend(&painter, *plate, galley, &colours));
+        }
+    }
+
+    /// What is written over two panes side by side: their methods, and where they parted first.
+    pub fn panes(&self, ui: &Ui, [own, beside]: [Rect; 2], report: &Report) {
+        let painter = ui.painter_at(beside);
+        if self.view.grid {
+            self.grid_labels(&painter, beside, &self.theme.colours());
+        }
+        let title = |rect: Rect, text: String| self.label(ui, rect, rect.left_top() + vec2(8.0, 8.0), &text);
+        title(own, format!("A: {}", companions::method_text(&self.frame.method)));
+        match &report.frame {
+            Some(frame) => title(beside, format!("B: {}", companions::method_text(&frame.method))),
+            None => title(beside, "B: starting".into()),
+        }
+        if let Some(gap) = &report.gap {
+            let text = format!("Apart: {}", companions::gap_text(gap, report.length));
+            self.label(ui, beside, beside.left_top() + vec2(8.0, 34.0), &text);
+        }
+        let Some(parting) = &report.parting else { return };
+        for (rect, at) in [(own, parting.here), (beside, parting.there)] {
+            let place = self.camera.to_canvas(at);
+            let place = rect.min + vec2(place.x as f32, place.y as f32);
+            let colours = self.theme.colours();
+            let painter = ui.painter_at(rect);
+            painter.circle_stroke(place, PARTING_RADIUS, Stroke::new(1.5, colours.warning));
+            if rect.contains(place) {
+                self.label(ui, rect, place + vec2(12.0, -26.0), &format!("parted at {:.2} s", parting.time));
+            }
         }
     }
 

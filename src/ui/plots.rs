@@ -2,14 +2,14 @@
 
 use super::format::{round_si, si};
 use super::state::{PlotTab, State};
-use super::theme;
-use crate::app::Frame;
+use super::{lab, theme};
 use crate::app::plot_data::{PLOT_SECONDS, Sample};
+use crate::app::{Command, Companion, Frame};
 use crate::engine::Stage;
 use crate::measure::Measures;
 use crate::render::legend::{SteadyRange, step_down, step_up};
 use egui::{Color32, FontId, Id, Rangef, Role, Sense, Shape, Stroke, Ui, Vec2b, WidgetInfo, pos2};
-use egui_plot::{AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotUi};
+use egui_plot::{AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotUi, VLine};
 use std::time::Instant;
 
 /// Points a curve: more cannot be told apart on a screen and cost time in every pass.
@@ -20,6 +20,8 @@ const LABEL_SPACING: f32 = 16.0;
 const DECADES: f64 = 8.0;
 /// The same for local errors, which lie far below what is wanted of the whole.
 const ERROR_DECADES: f64 = 9.0;
+/// The same for distances from the truth, which reach from rounding to the scene's size.
+const DISTANCE_DECADES: f64 = 12.0;
 /// Range of a plot that has nothing but zeros to show [J].
 const NO_ENERGY: f64 = 1.0;
 /// The same for errors [m]: a thousandth of the diameter of a hair.
@@ -36,6 +38,8 @@ pub struct Plots {
     violation: SteadyRange,
     /// In parts of an island's size.
     local_error: SteadyRange,
+    /// [m]
+    distance: SteadyRange,
     /// [µs]
     step: SteadyRange,
     /// Opening of the scene that the ranges belong to.
@@ -62,11 +66,16 @@ struct Curves<const N: usize> {
 impl<const N: usize> Curves<N> {
     /// At most [`POINTS`] points; buckets are aligned to absolute time, so that old points never change.
     fn of(frame: &Frame, fold: Fold, value: impl Fn(&Sample) -> [f64; N]) -> Curves<N> {
+        let samples = frame.plots.read();
+        Curves::folded(fold, samples.iter().map(|sample| (sample.measures.time, value(sample))))
+    }
+
+    /// The same of times and values, times ascending.
+    fn folded(fold: Fold, samples: impl Iterator<Item = (f64, [f64; N])>) -> Curves<N> {
         let width = PLOT_SECONDS / POINTS as f64;
         let mut curves = Curves { times: Vec::with_capacity(POINTS + 1), values: Vec::with_capacity(POINTS + 1) };
         let (mut bucket, mut count) = (f64::NEG_INFINITY, 0.0);
-        for sample in frame.plots.read().iter() {
-            let (time, new) = (sample.measures.time, value(sample));
+        for (time, new) in samples {
             let index = (time / width).floor();
             match curves.values.last_mut().filter(|_| index == bucket) {
                 Some(old) => {
@@ -107,7 +116,7 @@ fn merge<const N: usize>(old: &mut [f64; N], new: &[f64; N], fold: Fold, count: 
 
 impl Plots {
     /// The tabs and the plot that is chosen.
-    pub fn show(&mut self, ui: &mut Ui, frame: &Frame, state: &mut State) {
+    pub fn show(&mut self, ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Command>) {
         if self.opened != frame.scene.opened {
             *self = Plots { opened: frame.scene.opened, ..Plots::default() };
         }
@@ -118,14 +127,18 @@ impl Plots {
                 PlotTab::Energy => energy_legend(ui, frame),
                 PlotTab::Violation => violation_legend(ui, frame, &mut state.plot_log),
                 PlotTab::LocalError => local_error_legend(ui, frame),
+                PlotTab::Distance => distance_legend(ui, frame),
                 PlotTab::StepTime => step_legend(ui, frame),
+                PlotTab::Lab => {}
             }
         });
         match state.plot {
             PlotTab::Energy => self.energy(ui, frame),
             PlotTab::Violation => self.violation(ui, frame, state.plot_log),
             PlotTab::LocalError => self.local_error(ui, frame),
+            PlotTab::Distance => self.distance(ui, frame),
             PlotTab::StepTime => self.step(ui, frame),
+            PlotTab::Lab => lab::show(ui, frame, state, commands),
         }
     }
 
@@ -185,6 +198,42 @@ impl Plots {
         });
     }
 
+    fn distance(&mut self, ui: &mut Ui, frame: &Frame) {
+        let of = |companion: &Companion| {
+            let gaps = companion.gaps();
+            Curves::folded(Fold::Largest, gaps.iter().map(|gap| (gap.time, [gap.rms, gap.max, gap.uncertainty])))
+        };
+        let companions = [&frame.companions.truth, &frame.companions.rival];
+        let curves: Vec<(usize, Curves<3>)> = companions
+            .into_iter()
+            .enumerate()
+            .filter_map(|(index, companion)| companion.as_ref().map(|companion| (index, of(companion))))
+            .collect();
+        let largest = curves.iter().map(|(_, curves)| curves.largest(|values| values[1])).fold(0.0, f64::max);
+        self.distance.update(largest, Instant::now());
+        let top = if self.distance.top() > 0.0 { self.distance.top() } else { NO_ERROR };
+        let high = top.log10().ceil();
+        let low = high - DISTANCE_DECADES;
+        let label = |mark: GridMark| round_si(10f64.powf(mark.value), "m");
+        let map = |value: f64| value.max(1e-300).log10().max(low);
+        let parting = frame.companions.rival.as_ref().and_then(|rival| rival.report().parting);
+        let theme::Colours { series, weak, warning, .. } = theme::colours(ui);
+        plot(ui, "Distance plot", frame, Rise { range: [low, high], decades: true }, label, |plot| {
+            for (index, curves) in &curves {
+                for (part, name) in DISTANCES[*index].iter().enumerate() {
+                    plot.line(Line::new(name.0, curves.line(part, map)).color(series[2 * index + part]).width(1.5));
+                }
+                if curves.largest(|values| values[2]) > 0.0 {
+                    let line = Line::new("Uncertainty", curves.line(2, map)).color(weak);
+                    plot.line(line.style(LineStyle::dashed_loose()).width(1.0));
+                }
+            }
+            if let Some(parting) = parting {
+                plot.vline(VLine::new("Parted", parting.time).color(warning).style(LineStyle::dashed_loose()));
+            }
+        });
+    }
+
     fn step(&mut self, ui: &mut Ui, frame: &Frame) {
         let curves = Curves::of(frame, Fold::WorstSum, |sample| sample.stage_us);
         self.step.update(curves.largest(|values| values.iter().sum()), Instant::now());
@@ -230,6 +279,43 @@ const VIOLATIONS: [(&str, &str); 2] = [
     ("Violation", "Worst violation of a rod, a taut rope or a pin."),
     ("Penetration", "Deepest overlap of two surfaces."),
 ];
+
+/// Curves of the truth and of the rival: root mean square and largest distance.
+const DISTANCES: [[(&str, &str); 2]; 2] = [
+    [
+        ("Off truth, RMS", "Root mean square over all bodies of the distance from the truth."),
+        ("Off truth, max", "Largest distance of a body from the truth."),
+    ],
+    [
+        ("A | B, RMS", "Root mean square over all bodies of the distance between the two methods."),
+        ("A | B, max", "Largest distance of a body between the two methods."),
+    ],
+];
+
+fn distance_legend(ui: &mut Ui, frame: &Frame) {
+    let theme::Colours { series, weak, warning, .. } = theme::colours(ui);
+    let companions = [&frame.companions.truth, &frame.companions.rival];
+    if companions.iter().all(|companion| companion.is_none()) {
+        ui.label(egui::RichText::new("Switch on Ghost [Shift-H] or A | B [Shift-B] to see distances.").color(weak));
+        return;
+    }
+    for (index, companion) in companions.into_iter().enumerate() {
+        let Some(report) = companion.as_ref().map(Companion::report) else { continue };
+        let values = report.gap.map(|gap| [gap.rms, gap.max]);
+        for (part, (name, help)) in DISTANCES[index].iter().enumerate() {
+            let value = values.map_or("none".into(), |values| si(values[part], "m"));
+            entry(ui, series[2 * index + part], name, &value, help);
+        }
+        if let Some(gap) = report.gap.filter(|gap| gap.uncertainty > 0.0) {
+            let help = "What the distance from the truth may itself be off by: the distance of two runs of different fineness.";
+            marked(ui, dashed(weak), "Uncertainty", &si(gap.uncertainty, "m"), help);
+        }
+        if let (1, Some(parting)) = (index, report.parting) {
+            let help = "When a body of A and its double of B were first a hundredth of the scene's length apart.";
+            marked(ui, dashed(warning), "Parted", &format!("{:.2} s", parting.time), help);
+        }
+    }
+}
 
 fn tabs(ui: &mut Ui, state: &mut State) {
     for tab in PlotTab::ALL {

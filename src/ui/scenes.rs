@@ -1,9 +1,10 @@
 //! The list of scenes: type to find one, open a file by its path, save under a path.
 
 use super::state::{Field, State};
-use super::{theme, widgets};
+use super::{badge, theme, widgets};
 use crate::app::{Command, Frame};
 use crate::scene::Shipped;
+use crate::trial::Verdict;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Align, Key, Label, RichText, ScrollArea, TextEdit, Ui};
@@ -78,7 +79,7 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
                 widgets::note(ui, section);
             }
             let here = scene.name == frame.scene.name;
-            let response = entry(ui, scene, here);
+            let response = entry(ui, scene, here, state.verdicts.get(scene.name).map(|verdict| &**verdict));
             if here && state.listed != Some(frame.scene.opened) {
                 state.listed = Some(frame.scene.opened);
                 response.scroll_to_me(Some(Align::Center));
@@ -87,14 +88,24 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
                 commands.push(Command::Open(scene.name.to_owned()));
                 state.focus = Some(Field::Canvas);
             }
+            if here && let Some(verdict) = &frame.trial {
+                badge::details(ui, verdict);
+            }
         }
     });
 }
 
-fn entry(ui: &mut Ui, scene: &Shipped, here: bool) -> egui::Response {
+fn entry(ui: &mut Ui, scene: &Shipped, here: bool, verdict: Option<&Verdict>) -> egui::Response {
     let button = egui::Button::selectable(here, scene.title).truncate();
+    let pass = scene.pass();
+    // Room for the badge at the right end.
+    let button = if pass.is_some() { button.right_text("      ") } else { button };
     let response = ui.add_sized([ui.available_width(), theme::ROW], LeftAligned(button));
-    response.on_hover_text(format!("Opens \"{}\". [ and ] go through the list.", scene.name))
+    let opens = format!("Opens \"{}\". [ and ] go through the list.", scene.name);
+    let Some(pass) = pass else { return response.on_hover_text(opens) };
+    badge::paint(ui, response.rect, verdict.map(|verdict| verdict.state), here);
+    let pass = verdict.map_or_else(|| badge::wanted(&pass), badge::summary);
+    response.on_hover_text(format!("{opens}\n{pass}"))
 }
 
 /// `add_sized` centres; a list reads better from the left.

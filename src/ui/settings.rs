@@ -251,8 +251,8 @@ fn overriding(ui: &mut Ui, number: &Number, value: &mut Option<f64>, first: f64)
 
 fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Command>) {
     let mut method = frame.method;
-    let help = "The plan chooses how islands that nothing can touch are carried, for the accuracy wanted. What can touch is \
-                stepped as set below.";
+    let help = "The plan chooses how islands that nothing can touch are carried, for the accuracy wanted. Up to some hundred free \
+                bodies go exactly from impact to impact. What else can touch is stepped as set below.";
     let mut changed = widgets::switch(ui, "By accuracy", &mut method.automatic, Some(defaults.method.automatic), help);
     if method.automatic || method.integrator.is_direct() {
         changed |= widgets::slider(ui, &ACCURACY, &mut method.accuracy, Some(defaults.method.accuracy)).changed;
@@ -277,24 +277,32 @@ fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Co
     }
     if frame.report.near > 0 {
         let islands = format::count(frame.report.near);
-        widgets::note(ui, &format!("Islands with something near, left to the substeps in this step: {islands}."));
+        widgets::note(ui, &format!("Groups with something near, left to the substeps in this step: {islands}."));
     }
     if frame.report.given_up > 0 {
         let islands = format::count(frame.report.given_up);
         let note = format!(
-            "Islands left to the substeps in this step: {islands}. No position meets all their lengths, their springs ask for \
-             more than 1000 steps a frame, or the linear solver failed."
+            "Groups left to the substeps in this step: {islands}. No position meets all their lengths, their springs ask for \
+             more than 1000 steps a frame, the linear solver failed, or free bodies overlap or roll over each other."
         );
         widgets::note(ui, &note);
     }
 }
 
-/// How islands went through the last step: "Last step: RATTLE, order 2, 4 substeps; tridiagonal; local error 2e-7 of the size."
+/// How groups went through the last step: "Last step: RATTLE, order 2, 4 substeps; tridiagonal; local error 2e-7 of the size."
 fn last_step(report: &StepReport) -> Option<String> {
-    let integrator = report.integrator?;
+    let mut parts = Vec::new();
+    parts.extend(report.integrator.map(|integrator| of_islands(report, integrator)));
+    if report.events > 0 {
+        parts.push(format!("events located on the motion of free bodies: {}", report.events));
+    }
+    (!parts.is_empty()).then(|| format!("Last step: {}.", parts.join("; ")))
+}
+
+fn of_islands(report: &StepReport, integrator: Integrator) -> String {
     let substeps =
         if report.island_steps == 1 { "1 substep".to_owned() } else { format!("{} substeps", report.island_steps) };
-    let mut text = format!("Last step: {}, order {}, {substeps}", integrator.name(), report.order);
+    let mut text = format!("{}, order {}, {substeps}", integrator.name(), report.order);
     if let Some(matrix) = report.matrix {
         text += &format!("; matrix {}", matrix.name());
     }
@@ -310,7 +318,7 @@ fn last_step(report: &StepReport) -> Option<String> {
     if report.local_error > 0.0 {
         text += &format!("; local error about {:.0e} of the size", report.local_error);
     }
-    Some(text + ".")
+    text
 }
 
 /// Rate and length of a step: the same number twice, as people think of either.

@@ -5,11 +5,13 @@ use super::finder::Found;
 use super::overlay::Ranges;
 use super::plots::Plots;
 use super::settings::Defaults;
-use super::state::{Field, State};
+use super::state::{Field, PlotTab, State};
 use super::theme::{self, Theme};
-use super::{canvas, fault, finder, help, inspector, palette, scenes, settings, status, transport, view, widgets};
+use super::{
+    canvas, companions, fault, finder, help, inspector, palette, scenes, settings, status, transport, view, widgets,
+};
 use crate::app::{Action, Camera, Command, Edit, Feedback, Frame, Spawn, Tools};
-use crate::engine::{DVec2, Id};
+use crate::engine::{DVec2, Id, Method};
 use crate::render::{Extra, ViewOptions};
 use crate::scene::{Shipped, every_scene};
 use egui::{CentralPanel, Margin, Panel, Rect, ScrollArea, Ui};
@@ -36,6 +38,10 @@ pub struct Shell {
     space_panned: bool,
     /// What the last edit had touched when a duplicate was asked for; its copies are selected when they appear.
     duplicated: Option<Arc<Vec<Id>>>,
+    /// What the simulation was last asked for beside itself: the truth, and a rival under this method.
+    asked: (bool, Option<Method>),
+    /// Whether there were two panes in the last pass.
+    split: bool,
 }
 
 /// What came of a pass.
@@ -45,6 +51,8 @@ pub struct ShellOutput {
     pub commands: Vec<Command>,
     /// Where the scene lies [points of the screen].
     pub canvas: Rect,
+    /// Where its rival lies, if there is one; as large as the canvas and seen by the same camera.
+    pub rival: Option<Rect>,
     /// What the picture is to show.
     pub view: ViewOptions,
     /// The window is to fill the screen, or to give it back.
@@ -97,6 +105,7 @@ impl Shell {
         self.prepare(ui.ctx());
         self.follow(frame);
         let mut commands = Vec::new();
+        self.ask(&mut commands);
         let mut actions = actions::pressed(ui, &mut self.space_panned);
         if self.state.panels {
             self.panels(ui, frame, &mut actions, &mut commands);
@@ -113,11 +122,33 @@ impl Shell {
         }
         self.note_duplicate(frame, &commands);
         self.prepare(ui.ctx());
-        ShellOutput { commands, canvas: canvas.rect, view: self.view_options(camera), full_screen, quit }
+        let view = self.view_options(camera);
+        ShellOutput { commands, canvas: canvas.rect, rival: canvas.rival, view, full_screen, quit }
+    }
+
+    /// Asks the simulation for what is wanted beside it, if that is something else than before.
+    fn ask(&mut self, commands: &mut Vec<Command>) {
+        let (truth, rival) = (self.state.view.ghost, self.state.rival_method.filter(|_| self.state.rival));
+        if self.asked.0 != truth {
+            commands.push(Command::Truth(truth));
+        }
+        if self.asked.1 != rival {
+            commands.push(Command::Rival(rival));
+        }
+        self.asked = (truth, rival);
     }
 
     fn follow(&mut self, frame: &Arc<Frame>) {
         self.defaults.follow(frame);
+        if self.state.rival && self.state.rival_method.is_none() {
+            self.state.rival_method = Some(companions::first_method(&frame.method));
+        }
+        if let Some(verdict) = &frame.trial {
+            let known = self.state.verdicts.get(&frame.scene.name);
+            if known.is_none_or(|known| !Arc::ptr_eq(known, verdict)) {
+                self.state.verdicts.insert(frame.scene.name.clone(), verdict.clone());
+            }
+        }
         if self.opened != frame.scene.opened {
             self.opened = frame.scene.opened;
             self.tools.forget();
@@ -149,7 +180,7 @@ impl Shell {
         Panel::bottom("status")
             .exact_size(theme::ROW + theme::GRID)
             .frame(plate(12, 0))
-            .show(ui, |ui| status::show(ui, frame));
+            .show(ui, |ui| status::show(ui, frame, self.tools.selection()));
         Panel::left("tools").default_size(216.0).size_range(180.0..=360.0).frame(plate(12, 8)).show(ui, |ui| {
             widgets::scroll(ui, ScrollArea::vertical().auto_shrink(false), |ui| {
                 palette::show(ui, self.tools.tool(), actions);
@@ -160,18 +191,19 @@ impl Shell {
             widgets::scroll(ui, ScrollArea::vertical().auto_shrink(false), |ui| {
                 inspector::show(ui, frame, self.tools.selection(), commands);
                 settings::show(ui, frame, &self.defaults, commands);
-                view::show(ui, &mut self.state);
+                companions::rival_section(ui, frame, &mut self.state);
+                view::show(ui, frame, &mut self.state);
             });
         });
         if self.state.plots && ui.available_width() >= NARROWEST_PLOT {
-            Panel::bottom("plots")
-                .resizable(true)
-                .default_size(176.0)
-                .size_range(112.0..=480.0)
-                .frame(plate(12, 8))
-                .show(ui, |ui| {
-                    self.plots.show(ui, frame, &mut self.state);
-                });
+            // The lab's diagram wants more room than a curve.
+            let (id, height) = if self.state.plot == PlotTab::Lab { ("lab", 320.0) } else { ("plots", 176.0) };
+            Panel::bottom(id).resizable(true).default_size(height).size_range(112.0..=480.0).frame(plate(12, 8)).show(
+                ui,
+                |ui| {
+                    self.plots.show(ui, frame, &mut self.state, commands);
+                },
+            );
         }
     }
 
@@ -183,8 +215,8 @@ impl Shell {
         ranges: Ranges,
         actions: &mut Vec<Action>,
     ) -> CanvasOutput {
-        let response = canvas::allocate(ui);
-        let rect = response.rect;
+        let (rect, rival) = canvas::room(ui, self.state.rival);
+        let response = canvas::allocate(ui, rect);
         if self.state.takes_focus(Field::Canvas) {
             response.request_focus();
         }
@@ -192,6 +224,13 @@ impl Shell {
         if self.fitted != Some(frame.scene.opened) {
             self.fitted = Some(frame.scene.opened);
             actions::fit_all(frame, camera);
+        } else if self.split != rival.is_some() {
+            // Each pane shows what the whole canvas did.
+            camera.scale *= if rival.is_some() { 0.5 } else { 2.0 };
+        }
+        self.split = rival.is_some();
+        if let Some(rival) = rival {
+            canvas::follow(ui, rival, camera);
         }
         let commands = canvas::handle(ui, &response, &mut self.tools, frame, camera);
         canvas::context_menu(&response, &mut self.tools, frame, camera, actions);
@@ -201,7 +240,10 @@ impl Shell {
         let hovered = self.tools.hovered().filter(|_| !self.tools.busy());
         overlay.selection_label(ui, rect, self.tools.selection(), hovered);
         overlay.read_out(ui, rect, hovered, response.hover_pos());
-        CanvasOutput { rect, commands }
+        if let (Some(beside), Some(companion)) = (rival, &frame.companions.rival) {
+            overlay.panes(ui, [rect, beside], &companion.report());
+        }
+        CanvasOutput { rect, rival, commands }
     }
 
     fn dialogs(&mut self, ui: &Ui, actions: &mut Vec<Action>, commands: &mut Vec<Command>) {
@@ -235,6 +277,7 @@ impl Shell {
 
 struct CanvasOutput {
     rect: Rect,
+    rival: Option<Rect>,
     commands: Vec<Command>,
 }
 

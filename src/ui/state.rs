@@ -1,7 +1,12 @@
 //! What a user sets in the window itself: theme, panels, what is drawn, what is typed. None of it touches the simulation.
 
+use super::lab::Wanted;
 use super::theme::Theme;
 use crate::app::keys::Shown;
+use crate::engine::Method;
+use crate::trial::Verdict;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// What the picture shows besides the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,11 +19,21 @@ pub struct View {
     /// Rods and springs coloured by their tension.
     pub tension: bool,
     pub grid: bool,
+    /// The truth, drawn with the simulation.
+    pub ghost: bool,
 }
 
 impl Default for View {
     fn default() -> Self {
-        View { contacts: false, velocities: false, trails: false, speed: false, tension: true, grid: true }
+        View {
+            contacts: false,
+            velocities: false,
+            trails: false,
+            speed: false,
+            tension: true,
+            grid: true,
+            ghost: false,
+        }
     }
 }
 
@@ -29,16 +44,19 @@ pub enum PlotTab {
     Energy,
     Violation,
     LocalError,
+    Distance,
     StepTime,
+    Lab,
 }
 
 impl PlotTab {
     /// All of them, in the order of their tabs.
-    pub const ALL: [PlotTab; 4] = [PlotTab::Energy, PlotTab::Violation, PlotTab::LocalError, PlotTab::StepTime];
+    pub const ALL: [PlotTab; 6] =
+        [PlotTab::Energy, PlotTab::Violation, PlotTab::LocalError, PlotTab::Distance, PlotTab::StepTime, PlotTab::Lab];
 
     /// The name shown to a user.
     pub fn name(self) -> &'static str {
-        ["Energy", "Error", "Local error", "Step time"][self as usize]
+        ["Energy", "Error", "Local error", "Distance", "Step time", "Lab"][self as usize]
     }
 
     /// What it shows, for its tooltip.
@@ -47,7 +65,9 @@ impl PlotTab {
             "Kinetic, potential, elastic and total energy [J] over simulated time.",
             "Worst violation of a rod, rope or pin and deepest overlap of two surfaces [m] over simulated time.",
             "Estimated error of each step, in parts of an island's size, over simulated time.",
+            "Distance of the bodies from the truth (Ghost) and from the other method (A | B) [m] over simulated time.",
             "Time of a step [µs], split by stage, over simulated time.",
+            "Error over cost of every method on this scene, measured in the background. [Ctrl-L]",
         ][self as usize]
     }
 }
@@ -81,6 +101,14 @@ pub struct State {
     /// The violation plot's axis in powers of ten.
     pub plot_log: bool,
     pub view: View,
+    /// The same scene under another method, beside the simulation.
+    pub rival: bool,
+    /// That method, once it was chosen or first wanted.
+    pub rival_method: Option<Method>,
+    /// How the trials of scenes went in this session, by their names.
+    pub verdicts: BTreeMap<String, Arc<Verdict>>,
+    /// What the lab is to give advice for.
+    pub lab: Wanted,
     pub scene_filter: String,
     /// Opening of the scene that was last brought into sight in the list.
     pub listed: Option<u64>,
@@ -99,6 +127,10 @@ impl Default for State {
             plot: PlotTab::default(),
             plot_log: true,
             view: View::default(),
+            rival: false,
+            rival_method: None,
+            verdicts: BTreeMap::new(),
+            lab: Wanted::default(),
             scene_filter: String::new(),
             listed: None,
             save_path: "my scene.ron".into(),
@@ -120,6 +152,8 @@ impl State {
             Shown::Trails => &mut self.view.trails,
             Shown::Grid => &mut self.view.grid,
             Shown::Plots => &mut self.plots,
+            Shown::Ghost => &mut self.view.ghost,
+            Shown::Rival => &mut self.rival,
         }
     }
 

@@ -1,12 +1,13 @@
 //! The bar at the bottom: counts, step time against its budget, real-time factor, tick and time, worst violation.
 
 use super::format::{count, si};
-use super::{theme, transport};
+use super::{companions, theme, transport};
 use crate::app::Frame;
+use crate::engine::Id;
 use egui::{Align, Color32, Label, Layout, Ui};
 
 /// Shows the bar.
-pub fn show(ui: &mut Ui, frame: &Frame) {
+pub fn show(ui: &mut Ui, frame: &Frame, selection: &[Id]) {
     let colours = theme::colours(ui);
     let world = &frame.world;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -18,6 +19,14 @@ pub fn show(ui: &mut Ui, frame: &Frame) {
         let (text, colour) = pace(frame, &colours);
         item(ui, "", text, colour, "Simulated time against real time, over the last half second.");
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            // What was asked for comes first.
+            for (label, companion) in [("Off truth", &frame.companions.truth), ("A | B", &frame.companions.rival)] {
+                if let Some(companion) = companion {
+                    let (text, colour, help) = companions::status(frame, companion, &colours);
+                    item(ui, label, text, colour, &help);
+                }
+            }
+            selected(ui, frame, selection);
             item(ui, "Bodies", count(world.bodies().len()), colours.text, "Bodies in the world.");
             item(ui, "Constraints", count(world.constraints().len()), colours.text, "Rods, springs, ropes and pins.");
             item(ui, "Contacts", count(frame.measures.contacts), colours.text, "Contacts that touch or carry a force.");
@@ -26,6 +35,16 @@ pub fn show(ui: &mut Ui, frame: &Frame) {
             item(ui, "Error", violation, colours.text, "Worst violation of a rod, a taut rope or a pin [m].");
         });
     });
+}
+
+/// Where the selected body is, with the error of that, if the truth is known.
+fn selected(ui: &mut Ui, frame: &Frame, selection: &[Id]) {
+    let &[id] = selection else { return };
+    let body = frame.world.bodies().index_of(id);
+    if let Some(text) = body.and_then(|body| companions::position(frame, body)) {
+        let help = "Position of the selected body, and its distance from the truth with what that may be off by [m].";
+        item(ui, &format!("Body {id}"), text, theme::colours(ui).text, help);
+    }
 }
 
 fn step_time(ui: &mut Ui, frame: &Frame) {

@@ -50,6 +50,8 @@ pub struct Colours {
     /// Letters and icons on the accent.
     pub on_accent: Color32,
     pub warning: Color32,
+    /// What passed.
+    pub good: Color32,
     pub error: Color32,
     /// Behind the fault banner and the labels that lie on the scene.
     pub overlay: Color32,
@@ -102,6 +104,7 @@ const DARK: Colours = Colours {
     accent: rgb(84, 150, 255),
     on_accent: grey(12),
     warning: rgb(240, 178, 72),
+    good: rgb(0, 178, 130),
     error: rgb(245, 106, 96),
     overlay: Color32::from_rgba_premultiplied(26, 26, 26, 232),
     series: [
@@ -125,6 +128,7 @@ const LIGHT: Colours = Colours {
     accent: rgb(24, 96, 214),
     on_accent: grey(255),
     warning: rgb(158, 96, 0),
+    good: rgb(0, 120, 85),
     error: rgb(190, 36, 30),
     overlay: Color32::from_rgba_premultiplied(240, 240, 240, 240),
     series: [rgb(0, 114, 178), rgb(188, 120, 0), rgb(0, 130, 95), rgb(40, 40, 40), rgb(176, 84, 136), rgb(200, 80, 0)],

@@ -216,7 +216,16 @@ impl Sandbox {
             self.window.set_fullscreen(full.then_some(Fullscreen::Borderless(None)));
         }
         let share = interpolation(&frame, frame.published.elapsed().as_secs_f64());
-        let view = View { frame: &frame, camera: &self.camera, options: &shown.view, share, canvas: shown.canvas };
+        let rival = frame.companions.rival.as_ref().and_then(|rival| rival.report().frame.clone());
+        let pane = shown.rival.zip(rival);
+        let view = View {
+            frame: &frame,
+            camera: &self.camera,
+            options: &shown.view,
+            share,
+            canvas: shown.canvas,
+            rival: pane.as_ref().map(|(canvas, frame)| (*canvas, &**frame)),
+        };
         let delay =
             output.viewport_output.get(&egui::ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
         self.drawn = begun;

@@ -20,6 +20,37 @@ pub struct View<'a> {
     pub share: f64,
     /// Where the canvas lies [points].
     pub canvas: egui::Rect,
+    /// The same scene under another method, and where it lies.
+    pub rival: Option<(egui::Rect, &'a Frame)>,
+}
+
+/// A second picture beside the first, seen by the same camera. It keeps its memory while there is one.
+pub struct Beside {
+    scene: Renderer,
+    picture: Picture,
+}
+
+impl Beside {
+    /// For targets of `format`.
+    pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Beside {
+        Beside { scene: Renderer::new(device, format), picture: Picture::new() }
+    }
+
+    /// Builds the picture of `view`'s rival with the ranges of `first`, and uploads it.
+    pub fn prepare(&mut self, gpu: &Gpu, view: &View<'_>, first: &Picture, size: [u32; 2], scale: f32) {
+        let Some((canvas, frame)) = view.rival else { return };
+        // At another step it is shown as it is: between its own last two it would be later still.
+        let share = if frame.world.tick() == view.frame.world.tick() { view.share } else { 1.0 };
+        self.picture.borrow_ranges(first);
+        let options = ViewOptions { extra: Vec::new(), grip_cursor: None, ..view.options.clone() };
+        self.picture.build(frame, view.camera, &options, share);
+        self.scene.prepare(&gpu.device, &gpu.queue, &self.picture, &viewport(canvas, size, scale));
+    }
+
+    /// Draws what was prepared last.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.scene.draw(pass);
+    }
 }
 
 /// The surface, the device and what is drawn with them.
@@ -28,6 +59,7 @@ pub struct Screen {
     config: wgpu::SurfaceConfiguration,
     scene: Renderer,
     picture: Picture,
+    beside: Option<Beside>,
     panels: Panels,
     gpu: Gpu,
     window: Arc<Window>,
@@ -52,7 +84,7 @@ impl Screen {
         found.surface.configure(&gpu.device, &config);
         let scene = Renderer::new(&gpu.device, config.format);
         let panels = Panels::new(&gpu.device, config.format);
-        Ok(Screen { surface: found.surface, config, scene, picture: Picture::new(), panels, gpu, window })
+        Ok(Screen { surface: found.surface, config, scene, picture: Picture::new(), beside: None, panels, gpu, window })
     }
 
     /// Longest side of a texture [px].
@@ -104,9 +136,20 @@ impl Screen {
         let gpu = &self.gpu;
         self.picture.build(view.frame, view.camera, view.options, view.share);
         self.scene.prepare(&gpu.device, &gpu.queue, &self.picture, &viewport(view.canvas, size, scale));
+        match view.rival {
+            Some(_) => {
+                let beside = self.beside.get_or_insert_with(|| Beside::new(&gpu.device, self.config.format));
+                beside.prepare(gpu, view, &self.picture, size, scale);
+            }
+            None => self.beside = None,
+        }
         let target = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
-        self.scene.draw(&mut offscreen::begin_scene(&mut encoder, &target, self.picture.background()));
+        {
+            let mut pass = offscreen::begin_scene(&mut encoder, &target, self.picture.background());
+            self.scene.draw(&mut pass);
+            self.beside.iter().for_each(|beside| beside.draw(&mut pass));
+        }
         let screen = ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale };
         self.panels.paint(gpu, &mut encoder, &target, primitives, &screen);
         gpu.queue.submit([encoder.finish()]);

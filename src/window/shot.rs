@@ -2,8 +2,8 @@
 
 use super::desktop::show;
 use super::panels::Panels;
-use super::screen::viewport;
-use crate::app::{Camera, Frame, frame_after};
+use super::screen::{Beside as BesideView, View, viewport};
+use crate::app::{Beside, Camera, Frame, frame_after};
 use crate::engine::DVec2;
 use crate::render::offscreen::{self, FORMAT};
 use crate::render::{Gpu, Image, Picture, Renderer};
@@ -26,6 +26,8 @@ pub struct ShotOptions {
     pub light: bool,
     /// The panels as well as the canvas.
     pub whole_window: bool,
+    /// What is shown beside the simulation.
+    pub beside: Beside,
 }
 
 /// Passes that egui needs until every panel has its size and the view fits the canvas.
@@ -36,7 +38,7 @@ const PASSES: u32 = 4;
 /// # Errors
 /// If the run diverges before that time, there is no graphics adapter, the size cannot be drawn, or the file cannot be written.
 pub fn shot(setup: Setup, options: &ShotOptions) -> anyhow::Result<()> {
-    let frame = frame_after(setup, options.at);
+    let frame = frame_after(setup, options.at, &options.beside);
     if let Some(fault) = &frame.fault {
         anyhow::bail!("{fault}");
     }
@@ -53,6 +55,9 @@ pub fn draw(frame: &Arc<Frame>, options: &ShotOptions) -> anyhow::Result<Image> 
     let mut shell = Shell::new();
     let state = shell.state_mut();
     state.panels = options.whole_window;
+    state.view.ghost = options.beside.truth;
+    state.rival = options.beside.rival.is_some();
+    state.rival_method = options.beside.rival;
     state.theme = if options.light { Theme::Light } else { Theme::Dark };
     shell.prepare(&egui);
     let [width, height] = options.size.map(|side| side as f32);
@@ -78,7 +83,23 @@ pub fn draw(frame: &Arc<Frame>, options: &ShotOptions) -> anyhow::Result<Image> 
     let mut scene = Renderer::new(&gpu.device, FORMAT);
     let screen = ScreenDescriptor { size_in_pixels: options.size, pixels_per_point: 1.0 };
     let place = viewport(shown.canvas, options.size, 1.0);
-    let image = offscreen::render(&gpu, &mut scene, &picture, &place, |canvas| {
+    let rival = frame.companions.rival.as_ref().and_then(|rival| rival.report().frame.clone());
+    let pane = shown.rival.zip(rival);
+    let beside = pane.as_ref().map(|(canvas, rival)| {
+        let view = View {
+            frame,
+            camera: &camera,
+            options: &shown.view,
+            share: 1.0,
+            canvas: shown.canvas,
+            rival: Some((*canvas, &**rival)),
+        };
+        let mut beside = BesideView::new(&gpu.device, FORMAT);
+        beside.prepare(&gpu, &view, &picture, options.size, 1.0);
+        beside
+    });
+    let more = |pass: &mut wgpu::RenderPass<'_>| beside.iter().for_each(|beside| beside.draw(pass));
+    let image = offscreen::render(&gpu, &mut scene, &picture, &place, more, |canvas| {
         panels.paint(canvas.gpu, canvas.encoder, canvas.target, &primitives, &screen);
     })?;
     Ok(image)

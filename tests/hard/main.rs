@@ -1,7 +1,9 @@
 //! The hard cases under `scenes/hard`, each with its pass, as they open: settings included. Figures are printed; `--nocapture`.
 
 mod closed_forms;
+mod impacts;
 mod nets;
+mod passes;
 mod ropes;
 mod statics;
 mod turning;

@@ -4,30 +4,13 @@ use super::{open, step};
 use tautline::engine::{DVec2, Integrator, Method, Stepper};
 use tautline::measure::error_against;
 use tautline::scene;
-
-/// Nodes and tensions of a chain of `links` links of length `l` and equal nodes of weight `weight` between (0, 0) and (`span`, 0):
-/// the horizontal part of the tension, by bisection, such that the links reach over the span.
-fn catenary(links: usize, l: f64, weight: f64, span: f64) -> (Vec<DVec2>, Vec<f64>) {
-    let vertical = |i: usize| weight * (0.5 * (links - 1) as f64 - i as f64);
-    let reach = |h: f64| (0..links).map(|i| l * h / h.hypot(vertical(i))).sum::<f64>();
-    let (mut low, mut high) = (0.0, 1e6 * weight);
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        *(if reach(middle) < span { &mut low } else { &mut high }) = middle;
-    }
-    let mut nodes = vec![DVec2::ZERO];
-    for i in 0..links {
-        let pull = DVec2::new(low, -vertical(i));
-        nodes.push(nodes[i] + l * pull / pull.length());
-    }
-    (nodes, (0..links).map(|i| low.hypot(vertical(i))).collect())
-}
+use tautline::truth::closed_form::Hanging;
 
 #[test]
 fn a_hanging_chain_comes_to_rest_as_a_catenary() {
     let (mut world, mut stepper) = open("hard/hanging_chain");
     (0..1800).for_each(|_| drop(step(&mut world, &mut stepper)));
-    let (nodes, tensions) = catenary(100, 0.1, 1.0, 8.0);
+    let (nodes, tensions) = Hanging::chain(100, 0.1, 1.0, DVec2::ZERO, DVec2::new(8.0, 0.0)).balance().unwrap();
     // The generators make both halves in order: nodes 0 … 50 and 51 … 100, links 0 … 49 and 50 … 98, and the link that joins
     // them last.
     let at = world.bodies().position.iter();

@@ -2,6 +2,7 @@
 
 mod closed_form;
 mod energy_momentum;
+mod forms;
 mod orders;
 mod reference;
 mod rope_lengths;

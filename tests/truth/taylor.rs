@@ -124,8 +124,10 @@ fn the_plan_says_what_it_carries_and_what_it_leaves_to_the_substeps() {
     let heavy = scene::open("heavy_rope").unwrap();
     let mut stepper = Stepper::new(heavy.method).unwrap();
     assert!(stepper.plan(&heavy.world).sentence().contains("1 island by Taylor series to 1e-9"));
-    let stack = scene::open("stack").unwrap();
-    let mut stepper = Stepper::new(by_accuracy(1e-9)).unwrap();
-    let sentence = stepper.plan(&stack.world).sentence().to_owned();
-    assert!(sentence.contains("10 bodies can touch and go through the substeps"), "{sentence}");
+    let sentence =
+        |name| Stepper::new(by_accuracy(1e-9)).unwrap().plan(&scene::open(name).unwrap().world).sentence().to_owned();
+    let stack = sentence("stack");
+    assert!(stack.contains("10 free bodies from impact to impact in closed form"), "{stack}");
+    let pile = sentence("pile");
+    assert!(pile.contains("2000 bodies can touch and go through the substeps"), "{pile}");
 }

@@ -6,6 +6,7 @@ use crate::engine::Integrator;
 use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
+use crate::engine::impact::Few;
 use crate::engine::integrate::energy_momentum::EnergyMomentum;
 use crate::engine::integrate::nystrom::Nystrom;
 use crate::engine::integrate::outcome::Outcome;
@@ -30,6 +31,8 @@ pub(crate) struct Islands {
     /// By island: it keeps the order in which the island is eliminated.
     energy_momentum: Vec<EnergyMomentum>,
     surroundings: Surroundings,
+    /// Free bodies that can touch, if the plan has them carried; after the islands.
+    few: Few,
     /// Indices of the islands that could not be carried in this step, ascending.
     given_up: Vec<usize>,
 }
@@ -48,6 +51,9 @@ impl Islands {
                 self.taylor.reserve(&system);
             }
             self.islands.push((plan.clone(), system));
+        }
+        if let Some(few) = &plan.few {
+            self.few.build(world, few);
         }
     }
 
@@ -86,6 +92,14 @@ impl Islands {
             report.order = report.order.max(outcome.order);
             report.local_error = report.local_error.max(outcome.error / system.length);
             report.redundant += system.matrix.pivots.dropped;
+        }
+        if let Some(few) = &plan.few {
+            if few.is_held(world) {
+                self.given_up.push(self.islands.len());
+                report.near += 1;
+            } else if !self.few.advance(world, time, report) {
+                self.given_up.push(self.islands.len());
+            }
         }
         report.given_up = self.given_up.len() - report.near;
     }
@@ -140,7 +154,10 @@ impl Islands {
     }
 
     /// Writes the islands back, but for those given up; what turns freely turns on for `time` [s].
-    pub fn store(&self, world: &mut World, time: f64) {
+    pub fn store(&mut self, world: &mut World, plan: &Plan, time: f64) {
+        if plan.few.is_some() {
+            self.few.store(world);
+        }
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
         for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
             if !world.bodies.rotors.omega.is_empty() {

@@ -65,6 +65,13 @@ impl Matrix {
         }
     }
 
+    /// Becomes a matrix of zeros of another shape, in the memory it has.
+    pub fn reshape(&mut self, rows: usize, columns: usize) {
+        (self.rows, self.columns) = (rows, columns);
+        self.entries.clear();
+        self.entries.resize(rows * columns, 0.0);
+    }
+
     /// Becomes a copy of another matrix, in the memory it has.
     pub fn copy_from(&mut self, other: &Self) {
         (self.rows, self.columns) = (other.rows, other.columns);

@@ -72,9 +72,7 @@ impl Qr {
     /// Z T = [R₁ R₂]ᵀ: its columns are the rows of R.
     fn factor_rest(&mut self) {
         let (r, n) = (self.rank, self.order.len());
-        if (self.z.columns.rows(), self.z.columns.columns()) != (r, n) {
-            self.z.columns = Matrix::zeros(r, n);
-        }
+        self.z.columns.reshape(r, n);
         self.z.restart();
         for row in 0..r {
             for column in 0..n {

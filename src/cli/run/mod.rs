@@ -1,19 +1,35 @@
 //! `tautline run`: steps a scene without a window and writes what happens.
 
+mod rows;
+mod stepping;
+mod watch;
+
 use super::numbers;
 use super::output::{Output, is_same, is_stdout};
-use crate::engine::{Divergence, Integrator, LinearSolver, Method, Solver, StepReport, Stepper, World};
-use crate::measure::Measures;
+use crate::engine::{Integrator, LinearSolver, Method, Solver};
 use crate::scene;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use rows::Rows;
 use std::io::Write;
-use std::sync::OnceLock;
 use std::time::Instant;
+use stepping::{Sampling, run};
+use watch::{Refined, Watch};
 
 /// Steps a scene without a window and writes trajectories and measures as CSV.
 ///
 /// Rows are written at time 0 and then every `--every` seconds, each at the step nearest to that time (never twice at the
 /// same step). All units are SI; numbers are written so that they are read back with the same bits.
+///
+/// Columns of --measures: time; kinetic, potential (0 at the origin) and elastic energy [J]; momentum_x, momentum_y [kg·m/s];
+/// angular_momentum about the origin [kg·m²/s]; violation_max and penetration_max, the worst of a rod, rope or pin and the
+/// deepest overlap [m]; contacts; step_us, the mean time of a step since the row before [µs]; local_error, the largest estimate
+/// of a step's error since then, in parts of an island's size; violation_rms [m]; energy, the sum [J]; energy_drift, the energy
+/// less that at the start, in parts of the largest kinetic energy plus the spread of the other energies so far;
+/// error_rms and error_max, the distance from the exact motion over all bodies [m], and error_rms_percent and error_max_percent,
+/// the same in percent of the length that the scene names; order, with --order.
+///
+/// The error columns are empty where no exact motion is known: in scenes without a `truth` entry, after its seconds, and between
+/// the samples of a truth, which are 1/60 s apart. The last line tells the error over all samples that the run has met.
 #[derive(Debug, clap::Args)]
 #[command(allow_negative_numbers = true)]
 pub struct RunArguments {
@@ -28,7 +44,8 @@ pub struct RunArguments {
     /// Write time,id,x,y,angle,vx,vy,omega of every body to a file, or to standard output with `-`
     #[arg(long, value_name = "FILE")]
     csv: Option<String>,
-    /// Write energies, momenta, violation, penetration, contacts and the mean time of a step to a file, or `-`
+    /// Write energies and their drift, momenta, violation, penetration, contacts, the mean time of a step and, where it is known,
+    /// the error to a file, or `-`; the columns are explained above
     #[arg(long, value_name = "FILE")]
     measures: Option<String>,
     /// Steps a second, in place of the scene's
@@ -58,6 +75,10 @@ pub struct RunArguments {
     /// Part of the position error that PGS feeds back in a substep, 0 to 1
     #[arg(long, value_parser = numbers::baumgarte)]
     baumgarte: Option<f64>,
+    /// Repeat the run with twice the substeps (and with four times where no exact motion is known) beside it, and write the order
+    /// of convergence that the errors so far show: log2 of their ratio
+    #[arg(long)]
+    order: bool,
     /// Print a hash over the bits of the last state: equal runs, equal hashes
     #[arg(long)]
     hash: bool,
@@ -129,149 +150,27 @@ pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
     arguments.check_outputs()?;
     let method = arguments.method(setup.method);
     let sampling = Sampling { seconds: arguments.seconds, every: arguments.every.unwrap_or(method.step_seconds()) };
+    let exact = setup.known_motion();
+    let refined =
+        if arguments.order { Refined::new(&setup.world, method, exact.is_none())? } else { Refined::default() };
     let mut trajectory = arguments.csv.as_deref().map(Output::create).transpose()?;
     let mut measures = arguments.measures.as_deref().map(Output::create).transpose()?;
     let mut rows = Rows {
         trajectory: trajectory.as_mut().map(|output| output as &mut dyn Write),
         measures: measures.as_mut().map(|output| output as &mut dyn Write),
     };
+    let mut watch = Watch::new(&setup.world, exact, refined);
     let started = Instant::now();
-    let finish = run(setup.world, method, sampling, &mut rows)?;
+    let finish = run(setup.world, method, sampling, &mut rows, &mut watch)?;
     let spent = started.elapsed().as_secs_f64();
     [trajectory, measures].into_iter().flatten().try_for_each(|mut output| output.flush())?;
     if let Some(divergence) = finish.divergence {
         anyhow::bail!("after {} s: {divergence}", finish.world.time());
     }
-    let (steps, time) = (finish.steps, finish.world.time());
-    arguments.says(&format!("{}: {steps} steps, {time:.3} s simulated in {spent:.3} s", arguments.scene))?;
+    let (steps, time, found) = (finish.steps, finish.world.time(), watch.summary());
+    arguments.says(&format!("{}: {steps} steps, {time:.3} s simulated in {spent:.3} s{found}", arguments.scene))?;
     if arguments.hash {
         arguments.says(&format!("{:016x}", finish.world.hash()))?;
     }
     Ok(())
-}
-
-/// How long to run and when to write [s].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sampling {
-    pub seconds: f64,
-    pub every: f64,
-}
-
-impl Sampling {
-    /// The step nearest to sample `index`, at `hz` steps a second.
-    fn step_of(&self, index: u64, hz: f64) -> u64 {
-        (index as f64 * self.every * hz).round() as u64
-    }
-}
-
-/// What a run ended with.
-#[derive(Clone, Debug)]
-pub struct Finish {
-    /// The last good state.
-    pub world: World,
-    pub steps: u64,
-    /// Set if the run ended early.
-    pub divergence: Option<Divergence>,
-}
-
-/// Steps `world` for `sampling.seconds` and writes rows on the way. Stops early, rows flushed by the caller, on divergence.
-pub fn run(mut world: World, method: Method, sampling: Sampling, rows: &mut Rows) -> anyhow::Result<Finish> {
-    let mut stepper = Stepper::new(method)?.with_clock(nanoseconds);
-    // There are no rows between steps, and a step may hold a billion samples.
-    let sampling = Sampling { every: sampling.every.max(method.step_seconds()), ..sampling };
-    let last = (sampling.seconds * method.hz).round() as u64;
-    rows.headers()?;
-    rows.write(&world, Since::default())?;
-    let mut sample = 1;
-    let mut since_row = Sums::default();
-    for step in 1..=last {
-        let report = stepper.step(&mut world);
-        if let Some(divergence) = report.divergence {
-            return Ok(Finish { world, steps: step - 1, divergence: Some(divergence) });
-        }
-        since_row.add(&report);
-        if step >= sampling.step_of(sample, method.hz) {
-            rows.write(&world, since_row.take())?;
-            while sampling.step_of(sample, method.hz) <= step {
-                sample += 1;
-            }
-        }
-    }
-    Ok(Finish { world, steps: last, divergence: None })
-}
-
-/// What the steps since the row before tell.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Since {
-    /// Mean time of a step [µs].
-    step_us: f64,
-    /// Largest estimate of a step's local error, in parts of an island's size.
-    local_error: f64,
-}
-
-#[derive(Default)]
-struct Sums {
-    step_us: f64,
-    steps: f64,
-    local_error: f64,
-}
-
-impl Sums {
-    fn add(&mut self, report: &StepReport) {
-        self.step_us += report.step_us;
-        self.steps += 1.0;
-        self.local_error = self.local_error.max(report.local_error);
-    }
-
-    fn take(&mut self) -> Since {
-        let Sums { step_us, steps, local_error } = std::mem::take(self);
-        Since { step_us: step_us / steps, local_error }
-    }
-}
-
-/// Where the rows go.
-pub struct Rows<'a> {
-    /// A row a body: `time,id,x,y,angle,vx,vy,omega`.
-    pub trajectory: Option<&'a mut dyn Write>,
-    /// A row an instant: energies, momenta, violation, penetration, contacts, time of a step and its local error.
-    pub measures: Option<&'a mut dyn Write>,
-}
-
-impl Rows<'_> {
-    fn headers(&mut self) -> std::io::Result<()> {
-        if let Some(out) = &mut self.trajectory {
-            writeln!(out, "time,id,x,y,angle,vx,vy,omega")?;
-        }
-        if let Some(out) = &mut self.measures {
-            write!(out, "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,")?;
-            writeln!(out, "violation_max,penetration_max,contacts,step_us,local_error")?;
-        }
-        Ok(())
-    }
-
-    /// One instant. `{:?}` writes the fewest digits that are read back to the same bits.
-    fn write(&mut self, world: &World, since: Since) -> std::io::Result<()> {
-        if let Some(out) = &mut self.trajectory {
-            for (id, body) in world.bodies().iter() {
-                let (p, v, spin) = (body.position, body.velocity, body.spin.unwrap_or_default());
-                let (time, angle, omega) = (world.time(), spin.angle, spin.omega);
-                writeln!(out, "{time:?},{id},{:?},{:?},{angle:?},{:?},{:?},{omega:?}", p.x, p.y, v.x, v.y)?;
-            }
-        }
-        if let Some(out) = &mut self.measures {
-            let m = Measures::of(world);
-            let (time, momentum, contacts) = (m.time, m.momentum, m.contacts);
-            write!(out, "{time:?},{:?},{:?},{:?},", m.kinetic, m.potential, m.elastic)?;
-            write!(out, "{:?},{:?},{:?},", momentum.x, momentum.y, m.angular_momentum)?;
-            let Since { step_us, local_error } = since;
-            writeln!(out, "{:?},{:?},{contacts},{step_us:?},{local_error:?}", m.violation_max, m.penetration_max)?;
-        }
-        Ok(())
-    }
-}
-
-/// Nanoseconds since the first call.
-fn nanoseconds() -> u64 {
-    static START: OnceLock<Instant> = OnceLock::new();
-    START.get_or_init(Instant::now).elapsed().as_nanos() as u64
 }

@@ -1,0 +1,68 @@
+//! A world that follows another one's inputs, step by step, under a method of its own.
+
+use super::Input;
+use crate::engine::{EngineError, Method, StepReport, Stepper, World};
+
+/// The world and what steps it. Under the simulation's own method it has the simulation's bits.
+pub struct Follower {
+    world: World,
+    stepper: Stepper,
+    report: StepReport,
+}
+
+impl Follower {
+    /// Follows from the state of `world` on.
+    ///
+    /// # Errors
+    /// If the method cannot be used.
+    pub fn new(world: World, method: Method) -> Result<Follower, EngineError> {
+        Ok(Follower { world, stepper: Stepper::new(method)?, report: StepReport::default() })
+    }
+
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    pub fn method(&self) -> &Method {
+        self.stepper.method()
+    }
+
+    /// What the last step told.
+    pub fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// What the plan decided, in one sentence.
+    pub fn plan(&mut self) -> String {
+        self.stepper.plan(&self.world).sentence().to_string()
+    }
+
+    /// Steps with another method from now on; its rate stays that of the simulation.
+    pub fn set_method(&mut self, method: Method) -> Result<(), EngineError> {
+        self.stepper.set_method(Method { hz: self.method().hz, ..method })
+    }
+
+    /// Carries out an input.
+    ///
+    /// # Errors
+    /// In words, if it cannot be carried out here.
+    pub fn apply(&mut self, input: &Input) -> Result<(), String> {
+        if let Input::Rate(hz) = input {
+            let method = Method { hz: *hz, ..*self.method() };
+            return self.stepper.set_method(method).map_err(|error| error.to_string());
+        }
+        input.apply(&mut self.world)
+    }
+
+    /// Takes a step.
+    ///
+    /// # Errors
+    /// In words, if the run diverges; the world is then as it was before.
+    pub fn step(&mut self) -> Result<(), String> {
+        self.report = self.stepper.step(&mut self.world);
+        match &self.report.divergence {
+            Some(divergence) => Err(divergence.to_string()),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! The truth beside the simulation: known, or computed as exactly as the engine can and checked against a coarser run.
+
+use super::report::{Report, Standing};
+use super::separation::{Gap, Separation};
+use super::{Beginning, Follower, Input, Pose};
+use crate::engine::{Id, Integrator, LinearSolver, Method, Solver, World};
+use crate::truth::Trajectory;
+use std::sync::Arc;
+
+/// Distance of the two runs, in parts of the scene's length, from which there is no reference any more. Where neighbouring
+/// motions part as fast as they do then, neither run says anything about the next second.
+pub const PARTED: f64 = 1e-3;
+
+/// Substeps of what can touch in the finer run, at least; the coarser one takes half as many. Beyond it the solver's own
+/// iterations are what is left of the error.
+const SUBSTEPS: u32 = 32;
+
+/// A known motion is over when a step ends later than its last sample by more than this [s].
+const SAME_TIME: f64 = 1e-9;
+
+/// The most accurate method for a scene that is stepped with `method`, and one that is coarser.
+pub fn reference_methods(method: &Method) -> [Method; 2] {
+    let substeps = method.substeps.saturating_mul(4).clamp(SUBSTEPS, 1000);
+    let fine = Method {
+        hz: method.hz,
+        substeps,
+        iterations: method.iterations.clamp(50, 100_000),
+        integrator: Integrator::VelocityVerlet,
+        solver: Solver::Pgs,
+        warm_start: true,
+        automatic: true,
+        linear: LinearSolver::SparseLdl,
+        accuracy: 1e-13,
+        ..Method::default()
+    };
+    [fine, Method { substeps: substeps / 2, accuracy: 1e-11, ..fine }]
+}
+
+/// Follows a simulation with the truth.
+pub(super) struct Reference {
+    beginning: Box<Beginning>,
+    length: f64,
+    /// Steps followed since the beginning, and the rates from which step on [Hz].
+    steps: u64,
+    rates: Vec<(u64, f64)>,
+    source: Source,
+    separation: Separation,
+    /// Step and time of the simulation that was reached last.
+    tick: u64,
+    time: f64,
+    since: f64,
+}
+
+enum Source {
+    Known(Trajectory),
+    Computed(Box<Pair>),
+    Parted { after: f64, chaotic: bool },
+}
+
+/// A run and a coarser one.
+struct Pair {
+    fine: Follower,
+    coarse: Follower,
+    /// Largest root mean square of their distance so far [m].
+    apart: f64,
+    /// Some step went through substeps, whose error nothing bounds.
+    by_substeps: bool,
+}
+
+impl Reference {
+    /// # Errors
+    /// In words, if no run can be begun.
+    pub fn new(beginning: Box<Beginning>) -> Result<Reference, String> {
+        let known = beginning.untouched.then(|| beginning.start.known_motion()).flatten();
+        let source = match known {
+            Some(known) => Source::Known(known),
+            None => Source::Computed(Box::new(Pair::new(&beginning)?)),
+        };
+        let (tick, time) = (beginning.world.tick(), beginning.world.time());
+        let mut reference = Reference {
+            length: beginning.length(),
+            rates: vec![(0, beginning.hz)],
+            steps: 0,
+            source,
+            separation: Separation::default(),
+            tick,
+            time,
+            since: 0.0,
+            beginning,
+        };
+        reference.since = if matches!(reference.source, Source::Known(_)) { 0.0 } else { time };
+        let here = Pose::of(&reference.beginning.world);
+        reference.compare(&here);
+        Ok(reference)
+    }
+
+    /// Carries out an input. What is known of the motion ends there: it is computed from the beginning on.
+    pub fn input(&mut self, input: &Input, goes_on: &dyn Fn() -> bool) -> Result<(), String> {
+        if let Input::Rate(hz) = input {
+            self.rates.push((self.steps, *hz));
+        }
+        if input.touches() && matches!(self.source, Source::Known(_)) {
+            self.compute(goes_on)?;
+        }
+        match &mut self.source {
+            Source::Computed(pair) => pair.apply(input),
+            Source::Known(_) | Source::Parted { .. } => Ok(()),
+        }
+    }
+
+    /// Follows a step, after which the simulation is `here`. A new distance, if there is one.
+    pub fn step(&mut self, here: &Pose, goes_on: &dyn Fn() -> bool) -> Result<Option<Gap>, String> {
+        self.steps += 1;
+        (self.tick, self.time) = (here.tick, here.time);
+        let is_over = |known: &Trajectory| known.times.last().is_none_or(|end| here.time > end + SAME_TIME);
+        match &mut self.source {
+            Source::Known(known) if is_over(known) => self.compute(goes_on)?,
+            Source::Computed(pair) => pair.step()?,
+            Source::Known(_) | Source::Parted { .. } => {}
+        }
+        self.judge();
+        Ok(self.compare(here))
+    }
+
+    /// Runs from the beginning to where the simulation is now, without inputs: none has come so far but changes of the rate.
+    fn compute(&mut self, goes_on: &dyn Fn() -> bool) -> Result<(), String> {
+        let mut pair = Pair::new(&self.beginning)?;
+        let mut rates = self.rates.iter().peekable();
+        for step in 0..self.steps {
+            while let Some((_, hz)) = rates.next_if(|(from, _)| *from <= step) {
+                pair.apply(&Input::Rate(*hz))?;
+            }
+            if !goes_on() {
+                return Err("it was left".into());
+            }
+            pair.step()?;
+        }
+        for (_, hz) in rates {
+            pair.apply(&Input::Rate(*hz))?;
+        }
+        self.since = self.beginning.world.time();
+        self.source = Source::Computed(Box::new(pair));
+        self.judge();
+        Ok(())
+    }
+
+    /// Gives the reference up where the two runs have parted.
+    fn judge(&mut self) {
+        if let Source::Computed(pair) = &self.source
+            && !(pair.apart <= PARTED * self.length)
+        {
+            self.source = Source::Parted { after: self.time, chaotic: !pair.by_substeps };
+        }
+    }
+
+    fn compare(&mut self, here: &Pose) -> Option<Gap> {
+        let (there, uncertainty, ids): (Pose, f64, &[Id]) = match &self.source {
+            Source::Known(known) => {
+                let there = Pose { position: known.sample_at(here.time)?.to_vec(), ..Pose::default() };
+                (there, known.agreement * known.length, &self.beginning.world.bodies().id)
+            }
+            Source::Computed(pair) => (Pose::of(pair.fine.world()), pair.apart, &pair.fine.world().bodies().id),
+            Source::Parted { .. } => return None,
+        };
+        self.separation.compare(ids, here, &there, self.length, uncertainty);
+        self.separation.gap
+    }
+
+    /// What there is to tell.
+    pub fn report(&self, generation: u64) -> Report {
+        let standing = match &self.source {
+            Source::Known(known) => Standing::Exact { error: known.agreement },
+            Source::Computed(pair) => Standing::Converged { to: pair.apart / self.length },
+            Source::Parted { after, chaotic } => Standing::Parted { after: *after, chaotic: *chaotic },
+        };
+        let ended = matches!(standing, Standing::Parted { .. });
+        Report {
+            generation,
+            tick: self.tick,
+            time: self.time,
+            since: self.since,
+            standing,
+            length: self.length,
+            gap: self.separation.gap.filter(|_| !ended),
+            so_far: self.separation.so_far(),
+            parting: self.separation.parting,
+            offsets: if ended { Arc::default() } else { self.separation.offsets.clone() },
+            frame: None,
+        }
+    }
+}
+
+impl Pair {
+    fn new(beginning: &Beginning) -> Result<Pair, String> {
+        let begin = |method| {
+            let world: World = beginning.world.clone();
+            Follower::new(world, method).map_err(|error| error.to_string())
+        };
+        let own = Method { hz: beginning.hz, ..beginning.start.method };
+        let [fine, coarse] = reference_methods(&own).map(begin);
+        Ok(Pair { fine: fine?, coarse: coarse?, apart: 0.0, by_substeps: false })
+    }
+
+    fn apply(&mut self, input: &Input) -> Result<(), String> {
+        self.fine.apply(input)?;
+        self.coarse.apply(input)
+    }
+
+    fn step(&mut self) -> Result<(), String> {
+        self.fine.step()?;
+        self.coarse.step()?;
+        self.by_substeps |= self.fine.report().substeps > 0;
+        let [fine, coarse] = [&self.fine, &self.coarse].map(|run| &run.world().bodies().position);
+        let squares: f64 = fine.iter().zip(coarse).map(|(a, b)| (*a - *b).length_squared()).sum();
+        self.apart = self.apart.max((squares / fine.len().max(1) as f64).sqrt());
+        Ok(())
+    }
+}

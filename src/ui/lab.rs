@@ -1,0 +1,297 @@
+//! The lab's panel: error over cost of every method on the open scene, drawn while it is measured; what to use for a wanted
+//! error or a wanted budget; a click on a point loads its settings.
+
+use super::state::State;
+use super::theme;
+use crate::app::laboratory::Stage;
+use crate::app::{Command, Frame, LabOrder, LabReport};
+use crate::lab::report::mark::{Shape, look};
+use crate::lab::{Family, Front, Point, Setting};
+use egui::{Color32, DragValue, Id, Label, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2b};
+use egui_plot::{GridMark, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotResponse, Points};
+
+/// Width of the column beside the diagram [points].
+const COLUMN: f32 = 300.0;
+/// How near the pointer has to be to a point [points].
+const REACH: f32 = 12.0;
+/// An error of zero is drawn as this: below anything that a double resolves of a length.
+const SMALLEST: f64 = 1e-18;
+
+/// What a user asks the lab's advice for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// Error in parts of the scene's length.
+    pub error: f64,
+    /// Cost [µs of CPU time per simulated second].
+    pub budget: f64,
+    /// Path to export to, without its ending.
+    pub path: String,
+}
+
+impl Default for Wanted {
+    fn default() -> Self {
+        Wanted { error: 1e-6, budget: 1000.0, path: "lab".into() }
+    }
+}
+
+/// Shows the panel.
+pub fn show(ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Command>) {
+    let report = frame.lab.report();
+    let front = Front::of(&report.points);
+    ui.horizontal_top(|ui| {
+        let height = ui.available_height();
+        ui.allocate_ui_with_layout(egui::vec2(COLUMN, height), egui::Layout::top_down(egui::Align::Min), |ui| {
+            ui.set_width(COLUMN);
+            let area = ScrollArea::vertical().id_salt("lab column").auto_shrink(false);
+            super::widgets::scroll(ui, area, |ui| {
+                controls(ui, frame, &report, commands);
+                advice(ui, &report, &front, &mut state.lab);
+                export(ui, &report, &mut state.lab, commands);
+            });
+        });
+        ui.add_space(2.0 * theme::GRID);
+        if report.points.is_empty() {
+            nothing(ui, &report);
+        } else {
+            diagram(ui, frame, &report, &front, commands);
+        }
+    });
+}
+
+/// What stands in the diagram's place.
+fn nothing(ui: &mut Ui, report: &LabReport) {
+    let text = match report.stage {
+        Stage::Idle => {
+            "Start measures every method on this scene in the background: speed against error, point by point."
+        }
+        Stage::Refining { .. } => "The reference is computed, the points come after it.",
+        _ => "No point yet.",
+    };
+    let colour = theme::colours(ui).weak;
+    ui.add(Label::new(RichText::new(text).color(colour)).wrap());
+}
+
+fn controls(ui: &mut Ui, frame: &Frame, report: &LabReport, commands: &mut Vec<Command>) {
+    let busy = matches!(report.stage, Stage::Measuring | Stage::Refining { .. });
+    ui.horizontal(|ui| {
+        let mut button = |ui: &mut Ui, name: &str, enabled: bool, order: LabOrder, help: &str| {
+            let response = ui.add_enabled(enabled, egui::Button::new(name)).on_hover_text(help);
+            if response.on_disabled_hover_text(help).clicked() {
+                commands.push(Command::Lab(order));
+            }
+        };
+        let start = if report.points.is_empty() { "Start" } else { "Start anew" };
+        let help = "Measures error and cost of every method on the open scene: as it was opened, or as it stands if it was \
+                    changed by hand. The simulation goes on.";
+        button(ui, start, !busy, LabOrder::Start, help);
+        button(ui, "Stop", busy, LabOrder::Stop, "Ends the measuring after the step at hand. What was measured stays.");
+        let stopped = report.stage == Stage::Stopped;
+        button(ui, "Resume", stopped, LabOrder::Resume, "Goes on where it was stopped.");
+    });
+    let progress = report.progress.filter(|_| busy);
+    if let Some(progress) = progress {
+        let part = progress.done as f32 / progress.total.max(1) as f32;
+        let text = format!("{} of {}, {:.0} s left", progress.done, progress.total, progress.seconds_left.ceil());
+        let bar = egui::ProgressBar::new(part).desired_width(COLUMN - 4.0 * theme::GRID).text(text);
+        ui.add(bar).on_hover_text("Settings tried so far, of all, and an estimate of the time that the rest takes.");
+    }
+    note(ui, &stage_text(report));
+    if !report.scene.is_empty() && report.scene != frame.scene.name {
+        note(ui, &format!("These are of another scene: {}.", report.title));
+    }
+}
+
+fn stage_text(report: &LabReport) -> String {
+    let points = report.points.len();
+    let slow = if report.slow > 0 { format!(", {} settings too slow", report.slow) } else { String::new() };
+    let against = match (&report.stage, report.reference.as_str()) {
+        (Stage::Idle, "") => {
+            return "Error: RMS distance from the truth in parts of the length. Cost: CPU time.".into();
+        }
+        (_, "") => String::new(),
+        (_, reference) => format!(" Against: {reference}, over {} s.", super::format::plain(report.seconds, 2)),
+    };
+    match &report.stage {
+        Stage::Idle => format!("Stopped before there was a reference.{against}"),
+        Stage::Refining { runs, part } => format!("Reference: run {}, {:.0} %.", runs + 1, 100.0 * part),
+        Stage::Measuring => format!("{points} points{slow}.{against}"),
+        Stage::Stopped => format!("Stopped: {points} points{slow}.{against}"),
+        Stage::Finished => format!("Finished: {points} points{slow}.{against}"),
+        Stage::Failed(why) => format!("Failed: {why}."),
+    }
+}
+
+/// Two fields, and what to use for each.
+fn advice(ui: &mut Ui, report: &LabReport, front: &Front, wanted: &mut Wanted) {
+    if report.points.is_empty() {
+        return;
+    }
+    let row =
+        |ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>, unit: &str, help: &str| {
+            ui.horizontal(|ui| {
+                let label = ui.label(RichText::new(name).color(theme::colours(ui).weak));
+                let speed = 0.02 * *value;
+                let scientific = unit.is_empty();
+                let drag = DragValue::new(value).range(range).speed(speed).suffix(unit).update_while_editing(false);
+                let drag = drag.custom_formatter(move |value, _| {
+                    if scientific { super::format::minus(format!("{value:.0e}")) } else { super::format::digits(value) }
+                });
+                ui.add(drag).labelled_by(label.id).on_hover_text(help);
+                label.on_hover_text(help);
+            });
+        };
+    let help = "Wanted error, in parts of the scene's length. Drag, or click to type.";
+    row(ui, "Wanted error", &mut wanted.error, 1e-16..=1.0, "", help);
+    note(ui, &front.advice_for_error(wanted.error));
+    let help =
+        "Wanted budget, in microseconds of CPU time per simulated second: 1e6 is a whole core. Drag, or click to type.";
+    row(ui, "Wanted budget", &mut wanted.budget, 0.1..=1e7, " µs/s", help);
+    note(ui, &front.advice_for_budget(wanted.budget));
+    if let Some(gain) = front.gain(&report.points, Setting::BASELINE) {
+        note(ui, &gain.sentence());
+    }
+}
+
+fn export(ui: &mut Ui, report: &LabReport, wanted: &mut Wanted, commands: &mut Vec<Command>) {
+    if report.points.is_empty() {
+        return;
+    }
+    ui.horizontal(|ui| {
+        let edit = TextEdit::singleline(&mut wanted.path).hint_text("Path").desired_width(96.0);
+        let help = "Path of the file to write, without its ending.";
+        ui.add(edit).accessible_name("Path to export to").on_hover_text(help);
+        for (name, ending, help) in [
+            ("CSV", "csv", "Writes all points as comma-separated values."),
+            ("JSON", "jsonl", "Writes all points as lines of JSON, which `tautline lab --resume` reads."),
+            ("SVG", "svg", "Writes the diagram as a picture."),
+        ] {
+            if ui.button(name).on_hover_text(help).clicked() && !wanted.path.trim().is_empty() {
+                let path = format!("{}.{ending}", wanted.path.trim());
+                commands.push(Command::Lab(LabOrder::Export(path.into())));
+            }
+        }
+    });
+    if let Some(saved) = &report.saved {
+        note(ui, &format!("Saved to {saved}"));
+    }
+}
+
+/// Where a point lies in the diagram: powers of ten of cost and error.
+fn place(point: &Point) -> Option<[f64; 2]> {
+    let error = point.error.filter(|error| error.is_finite())?;
+    Some([point.cpu_us_per_second.log10(), error.max(SMALLEST).log10()])
+}
+
+fn diagram(ui: &mut Ui, frame: &Frame, report: &LabReport, front: &Front, commands: &mut Vec<Command>) {
+    let colours = theme::colours(ui);
+    let places: Vec<(usize, [f64; 2])> =
+        report.points.iter().enumerate().filter_map(|(index, point)| Some((index, place(point)?))).collect();
+    let response = plot(&colours).show(ui, |plot| {
+        plot.set_auto_bounds(Vec2b::TRUE);
+        let line: Vec<[f64; 2]> = front.points().iter().filter_map(place).collect();
+        plot.line(Line::new("Front", PlotPoints::new(line)).color(colours.strong).width(2.0).allow_hover(false));
+        for family in Family::ALL {
+            let own = |on_front: bool| -> Vec<[f64; 2]> {
+                let of_family = |point: &&Point| point.method == family && front.contains(point) == on_front;
+                report.points.iter().filter(of_family).filter_map(place).collect()
+            };
+            let (shape, filled, colour) = look(family);
+            for (on_front, radius) in [(false, 3.5), (true, 5.5)] {
+                let colour = family_colour(&colours, colour).gamma_multiply(if on_front { 1.0 } else { 0.65 });
+                let marks = Points::new(family.name(), PlotPoints::new(own(on_front)));
+                plot.points(marks.shape(marker(shape)).filled(filled).color(colour).radius(radius).allow_hover(false));
+            }
+        }
+    });
+    hover(ui, frame, report, &places, &response, commands);
+}
+
+/// Explains the point under the pointer; a click loads its settings.
+fn hover(
+    ui: &Ui,
+    frame: &Frame,
+    report: &LabReport,
+    places: &[(usize, [f64; 2])],
+    response: &PlotResponse<()>,
+    commands: &mut Vec<Command>,
+) {
+    let Some(pointer) = response.response.hover_pos() else { return };
+    let distance = |place: &[f64; 2]| {
+        let at = response.transform.position_from_point(&PlotPoint::new(place[0], place[1]));
+        at.distance(pointer)
+    };
+    let nearest = places.iter().map(|(index, place)| (*index, distance(place))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((index, _)) = nearest.filter(|(_, distance)| *distance <= REACH) else { return };
+    let point = &report.points[index];
+    ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
+    response.response.clone().on_hover_text_at_pointer(explain(point));
+    if response.response.clicked() {
+        commands.push(Command::Method(point.setting().method(frame.method)));
+    }
+}
+
+/// What a point is, in a few lines.
+pub fn explain(point: &Point) -> String {
+    let error = point.error.map_or("none".into(), |error| format!("{error:.1e}"));
+    format!(
+        "{}\nError: {error} of the length ({})\nCost: {} µs of CPU time per simulated second\nWorst violation: {}\nEnergy drift: \
+         {:.1e}\nClick to step the simulation so.",
+        point.setting().label(),
+        point.error_kind,
+        super::format::digits(point.cpu_us_per_second),
+        super::format::si(point.violation_max, "m"),
+        point.energy_drift,
+    )
+}
+
+fn plot(colours: &theme::Colours) -> Plot<'static> {
+    let power = |mark: GridMark| format!("1e{}", mark.value.round());
+    Plot::new("Lab diagram")
+        .id(Id::unique("lab diagram"))
+        .allow_zoom(false)
+        .allow_drag(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .show_background(false)
+        .show_x(false)
+        .show_y(false)
+        .grid_color(colours.weak.gamma_multiply(0.5))
+        .x_grid_spacer(|input| decades(input.bounds))
+        .y_grid_spacer(|input| decades(input.bounds))
+        .x_axis_formatter(move |mark, _| power(mark))
+        .y_axis_formatter(move |mark, _| power(mark))
+        .x_axis_label("Cost [µs/s]")
+        .y_axis_label("Error")
+        .legend(egui_plot::Legend::default().text_style(egui::TextStyle::Small))
+        .sense(Sense::click())
+}
+
+/// A line every power of ten, a label at each, or at every third where there are many.
+fn decades((from, to): (f64, f64)) -> Vec<GridMark> {
+    let every = if to - from > 8.0 { 3 } else { 1 };
+    let step = |n: i64| if n % every == 0 { every as f64 } else { 1.0 };
+    (from.ceil() as i64..=to.floor() as i64).map(|n| GridMark { value: n as f64, step_size: step(n) }).collect()
+}
+
+fn marker(shape: Shape) -> MarkerShape {
+    match shape {
+        Shape::Circle => MarkerShape::Circle,
+        Shape::Square => MarkerShape::Square,
+        Shape::Diamond => MarkerShape::Diamond,
+        Shape::Up => MarkerShape::Up,
+        Shape::Down => MarkerShape::Down,
+        Shape::Plus => MarkerShape::Plus,
+        Shape::Cross => MarkerShape::Cross,
+    }
+}
+
+/// The colour of that number in `lab::report::mark`.
+fn family_colour(colours: &theme::Colours, index: usize) -> Color32 {
+    let [blue, orange, green, strong, pink, vermilion] = colours.series;
+    [blue, vermilion, green, pink, strong, orange, colours.weak][index.min(6)]
+}
+
+fn note(ui: &mut Ui, text: &str) {
+    super::widgets::note(ui, text);
+}
