@@ -46,6 +46,10 @@ impl Islands {
         self.energy_momentum.resize_with(plan.islands.len(), EnergyMomentum::default);
         for plan in &plan.islands {
             let system = System::new(world, &plan.group.bodies, &plan.group.constraints, plan.linear);
+            if system.turns() {
+                // Stands in where RATTLE gives in.
+                self.taylor.reserve(&system);
+            }
             self.islands.push((plan.clone(), system));
         }
         if let Some(few) = &plan.few {
