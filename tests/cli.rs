@@ -445,6 +445,28 @@ fn truth_is_computed_compared_and_written() {
     let own = path_in(&folder, "own.ron");
     std::fs::write(&own, "(version: 1, truth: (seconds: 0.1, length: 1), bodies: [Particle()])").expect("a scene file");
     assert!(prints(&["truth", &own]).contains("not stored, 7 samples of 1 bodies"));
+    prints(&["truth", "truth/pendulum", "--check"]);
+    fails_late(&["truth", &own, "--check"], "write it anew");
+}
+
+#[test]
+fn a_closed_form_is_compared_with_the_reference_solver_and_never_stored() {
+    let said = prints(&["truth", "hard/pendulum"]);
+    assert!(said.starts_with("hard/pendulum: closed form Pendulum, 601 samples of 2 bodies; the reference"), "{said}");
+    let folder = folder();
+    let ball = path_in(&folder, "ball.ron");
+    let walls = "bodies: [Particle(position: (0, 1))], walls: [Segment(from: (-1, 0), to: (1, 0))]";
+    let text = format!("(version: 1, truth: (seconds: 1, length: 1, form: Bounce), {walls})");
+    std::fs::write(&ball, text).expect("a scene file");
+    assert!(prints(&["truth", &ball]).contains("61 samples of 1 bodies; a body that can touch a wall"));
+    fails(&["truth", &ball, "--check"], 1, "leave out --write and --check");
+}
+
+/// Fails after something was printed.
+fn fails_late(arguments: &[&str], phrase: &str) {
+    let output = tautline(arguments);
+    let message = text(&output.stderr);
+    assert!(output.status.code() == Some(1) && message.contains(phrase), "{message}");
 }
 
 #[test]

@@ -25,6 +25,9 @@ pub struct TruthArguments {
     /// Write what was computed into this folder, a file NAME.truth for each scene; in the sources that is scenes/truth
     #[arg(long, value_name = "FOLDER")]
     write: Option<PathBuf>,
+    /// Fail unless what was computed is, byte for byte, what is stored in the program
+    #[arg(long)]
+    check: bool,
 }
 
 pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
@@ -45,8 +48,8 @@ pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
         };
         if let Some(form) = span.form {
             anyhow::ensure!(
-                arguments.write.is_none(),
-                "{name} follows the closed form {}, which is never stored: leave out --write",
+                arguments.write.is_none() && !arguments.check,
+                "{name} follows the closed form {}, which is never stored: leave out --write and --check",
                 form.name()
             );
             say_of_form(&setup, form, span)?;
@@ -58,6 +61,11 @@ pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
         if let Some(folder) = &arguments.write {
             write(folder, name, &found)?;
         }
+        anyhow::ensure!(
+            !arguments.check
+                || truth::stored(&setup.name).is_some_and(|stored| truth::to_bytes(&stored) == truth::to_bytes(&found)),
+            "{name}: what is stored is not what was computed: write it anew with --write scenes/truth"
+        );
     }
     Ok(())
 }

@@ -4,7 +4,10 @@ use super::point::ErrorKind;
 use crate::engine::{DVec2, World};
 use crate::measure::error_against;
 use crate::scene::Setup;
-use crate::truth::{SAMPLES_PER_SECOND, Trajectory, stored};
+use crate::truth::{SAMPLES_PER_SECOND, Trajectory};
+
+/// Smallest error that is told, in parts of the length.
+const ROUNDING: f64 = 1e-16;
 
 /// A motion that is known well enough to compare others with, sampled [`SAMPLES_PER_SECOND`] times a second from 0 on.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,14 +54,12 @@ impl std::fmt::Display for Lost {
 }
 
 impl Reference {
-    /// The motion of a scene whose truth comes with the program; `None` if it has none.
+    /// The motion of a scene whose truth is stored in the program or has a formula; `None` if there is neither.
     pub fn known(setup: &Setup) -> Option<Reference> {
-        Some(Reference::from_trajectory(stored(&setup.name)?, Source::Stored))
-    }
-
-    pub(super) fn from_trajectory(trajectory: Trajectory, source: Source) -> Reference {
-        let Trajectory { positions, length, agreement, .. } = trajectory;
-        Reference { source, known_to: agreement, length, positions, lost: None }
+        let source = if setup.truth?.form.is_some() { Source::ClosedForm } else { Source::Stored };
+        let Trajectory { positions, length, agreement, .. } = setup.known_motion()?;
+        // Samples are doubles, whatever they were computed with.
+        Some(Reference { source, known_to: agreement.max(ROUNDING), length, positions, lost: None })
     }
 
     /// Until when it is known [s].

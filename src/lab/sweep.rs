@@ -38,8 +38,8 @@ impl Default for SweepOptions {
 }
 
 /// Timed runs of a short motion go on until they have taken so long together [ns], or are so many.
-const ENOUGH: u64 = 10_000_000;
-const MOST_RUNS: usize = 15;
+const ENOUGH: u64 = 40_000_000;
+const MOST_RUNS: usize = 51;
 
 /// Whether the steps of a rate and the samples of a reference meet: multiples of 60 Hz up to 100,000, and 30, 20, 15, 12, … 1.
 pub fn rate_fits(hz: f64) -> bool {

@@ -2,7 +2,7 @@
 
 use super::clock::thread_nanoseconds;
 use crate::engine::{DVec2, EngineError, Integrator, Method, Stepper, World};
-use crate::measure::Measures;
+use crate::measure::{EnergyDrift, Measures};
 use crate::truth::SAMPLES_PER_SECOND;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -48,7 +48,8 @@ impl<'a> Trial<'a> {
         let every = steps_between_samples(self.hz);
         let last = (seconds * self.hz).round() as u64;
         let mut world = self.start.clone();
-        let mut energies = Energies::default();
+        let mut drift = EnergyDrift::new(&Measures::of(&world));
+        let mut change: f64 = 0.0;
         let mut motion = Motion {
             positions: vec![world.bodies().position.clone()],
             violation_max: 0.0,
@@ -57,7 +58,6 @@ impl<'a> Trial<'a> {
             diverged: false,
             carried_by: None,
         };
-        energies.add(&Measures::of(&world));
         for step in 1..=last {
             let report = self.stepper.step(&mut world);
             if report.divergence.is_some() {
@@ -72,7 +72,7 @@ impl<'a> Trial<'a> {
             if step.is_multiple_of(every) {
                 let measures = Measures::of(&world);
                 motion.violation_max = motion.violation_max.max(measures.violation_max);
-                energies.add(&measures);
+                change = change.max((drift.see(&measures) * drift.scale()).abs());
                 motion.positions.push(world.bodies().position.clone());
                 tell(step as f64 / last as f64);
             }
@@ -80,7 +80,8 @@ impl<'a> Trial<'a> {
                 return Err(Stop::TooSlow);
             }
         }
-        motion.energy_drift = energies.drift();
+        // By the scale of the whole run: at first hardly anything has moved.
+        motion.energy_drift = if change > 0.0 { change / drift.scale() } else { 0.0 };
         Ok(motion)
     }
 
@@ -97,35 +98,6 @@ impl<'a> Trial<'a> {
 
     fn check_cancel(&self) -> Result<(), Stop> {
         if self.cancel.load(Ordering::Relaxed) { Err(Stop::Cancelled) } else { Ok(()) }
-    }
-}
-
-/// Total energy over a run.
-#[derive(Default)]
-struct Energies {
-    start: Option<f64>,
-    change: f64,
-    kinetic: f64,
-    potential: [f64; 2],
-}
-
-impl Energies {
-    fn add(&mut self, measures: &Measures) {
-        let potential = measures.potential + measures.elastic;
-        let total = measures.kinetic + potential;
-        let start = *self.start.get_or_insert_with(|| {
-            self.potential = [potential; 2];
-            total
-        });
-        self.change = self.change.max((total - start).abs());
-        self.kinetic = self.kinetic.max(measures.kinetic);
-        self.potential = [self.potential[0].min(potential), self.potential[1].max(potential)];
-    }
-
-    /// Largest change in parts of the largest kinetic energy and the range of the potential together; 0 if there is none.
-    fn drift(&self) -> f64 {
-        let scale = self.kinetic + (self.potential[1] - self.potential[0]);
-        if scale > 0.0 { self.change / scale } else { 0.0 }
     }
 }
 

@@ -39,6 +39,9 @@ impl Trajectory {
     /// The sample at time `t` [s], if there is one within rounding; a truth says nothing in between.
     pub fn sample_at(&self, t: f64) -> Option<&[DVec2]> {
         let index = (t * f64::from(SAMPLES_PER_SECOND)).round();
+        if !(index >= 0.0) {
+            return None;
+        }
         let known = *self.times.get(index as usize)?;
         // Some ulps: at 1 km/s that is 1e-12 m.
         ((t - known).abs() <= 1e-15 * (1.0 + known)).then(|| self.positions[index as usize].as_slice())
@@ -48,12 +51,13 @@ impl Trajectory {
     /// acceleration a, 0.3 mm in free fall, and never to be measured against. `None` before the start and after the end.
     pub fn drawn_at(&self, t: f64) -> Option<Vec<DVec2>> {
         let place = t * f64::from(SAMPLES_PER_SECOND);
-        let first = place.floor();
-        let [before, after] = [first, (first + 1.0).min(self.positions.len() as f64 - 1.0)];
-        if !(place >= 0.0) {
+        let last = self.positions.len().checked_sub(1)?;
+        if !(place >= 0.0 && place <= last as f64) {
             return None;
         }
-        let (before, after) = (self.positions.get(before as usize)?, self.positions.get(after as usize)?);
+        let first = place.floor();
+        let [before, after] = [first as usize, (first as usize + 1).min(last)];
+        let (before, after) = (&self.positions[before], &self.positions[after]);
         Some(before.iter().zip(after).map(|(a, b)| a.lerp(*b, place - first)).collect())
     }
 }

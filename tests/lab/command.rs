@@ -198,7 +198,7 @@ fn files_that_get_in_the_way_are_refused() {
     fails(&quick(&["--json", &a, "--csv", &b]), 1, "give one of them another file name");
     fails(&quick(&["--json", "-", "--csv", "-"]), 1, "give one of them another file name");
     assert!(!Path::new(&a).exists(), "nothing is written");
-    fails(&quick(&["--resume", &a]), 1, "start it with --json");
+    fails(&quick(&["--resume", &a]), 1, "with --json");
     fails(&quick(&["--resume", "-"]), 1, "name the file");
     std::fs::write(&a, "nonsense\n").unwrap();
     fails(&quick(&["--resume", &a]), 1, "line 1");

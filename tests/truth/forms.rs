@@ -182,7 +182,14 @@ fn a_scene_that_does_not_fit_its_form_says_what_does_not() {
             "form: Roll), bodies: [Disc(position: (0, 0.1), velocity: (3, 0))], walls: [Segment(from: (-1, 0), to: (1, 0))]",
             "the end of its plane",
         ),
-        ("form: Exchange), bodies: [Particle(), Particle(position: (1, 0)), Particle(position: (2, 0))]", "3 bodies"),
+        (
+            "form: Exchange), bodies: [Particle(), Particle(position: (1, 0)), Particle(position: (2, 0))]",
+            "no two bodies",
+        ),
+        (
+            "form: Stack), bodies: [Particle(position: (0, 0.1)), Particle(position: (0.01, 0.3))], walls: [Segment(from: (-1, 0), to: (1, 0))]",
+            "stands on nothing",
+        ),
         ("form: Row), bodies: [Particle(restitution: 1), Particle(position: (1, 0))], settings: (gravity: (0, 0))", ""),
         (
             "form: Row), bodies: [Particle(), Particle(position: (1, 0))], settings: (gravity: (0, 0))",

@@ -133,6 +133,26 @@ fn long_truths_come_out_the_same_as_far_as_a_test_may_run() {
 }
 
 #[test]
+fn a_truth_is_told_at_its_samples_and_drawn_in_between() {
+    let truth = stored("truth/pendulum").unwrap();
+    for k in [0, 1, 77, 600] {
+        assert_eq!(truth.sample_at(k as f64 / 60.0), Some(truth.positions[k].as_slice()));
+        assert_eq!(truth.drawn_at(k as f64 / 60.0).as_ref(), Some(&truth.positions[k]));
+    }
+    for t in [0.01, 1.0 / 60.0 + 1e-9, -1.0 / 60.0, 10.01, f64::NAN, f64::INFINITY] {
+        assert_eq!(truth.sample_at(t), None, "{t}");
+    }
+    let pendulum = Pendulum { length: 1.0, gravity: 9.81, amplitude: std::f64::consts::FRAC_PI_2 };
+    let worst =
+        (0..1000).map(|i| 0.009 * f64::from(i)).map(|t| (truth.drawn_at(t).unwrap()[1] - pendulum.at(t)).length());
+    let worst = worst.fold(0.0, f64::max);
+    println!("drawn {worst:.1e} m off");
+    // At most 3 g at the bottom: a/8 · (1/60 s)².
+    assert!(worst < 30.0 / 8.0 / 3600.0, "{worst:e}");
+    assert!([-0.01, 10.01, f64::NAN].iter().all(|t| truth.drawn_at(*t).is_none()));
+}
+
+#[test]
 fn stored_bytes_are_read_back_and_damage_is_found() {
     let truth = stored("truth/double_pendulum").unwrap();
     let bytes = to_bytes(&truth);

@@ -185,7 +185,9 @@ mod tests {
         let held = Arc::new(Mutex::new(held));
         let waker: Waker = Box::new(move || {
             let held = held.clone();
-            Box::new(move || drop(held.lock().unwrap_or_else(PoisonError::into_inner).recv()))
+            Box::new(move || {
+                let _ = held.lock().unwrap_or_else(PoisonError::into_inner).recv();
+            })
         });
         let start = Arc::new(crate::scene::open("pendulum").expect("a shipped scene"));
         let (world, hz) = (start.world.clone(), start.method.hz);

@@ -2,9 +2,8 @@
 //! `accuracy.md`.
 
 use crate::lab::Point;
-use crate::lab::report::page::{Machine, ScenePoints, page};
+use crate::lab::report::page::{Machine, ScenePoints, page, scenes, stem};
 use crate::lab::report::{json, svg::svg};
-use crate::scene::truth_scenes;
 use anyhow::Context;
 use std::path::{Path, PathBuf};
 
@@ -41,21 +40,20 @@ pub(super) fn draw(folder: &Path) -> anyhow::Result<()> {
     let machine: Machine = serde_json::from_str(&read(&path)?)
         .with_context(|| format!("cannot read {}: measure anew without --redraw", path.display()))?;
     check(folder)?;
-    let mut scenes = Vec::new();
-    for shipped in truth_scenes() {
+    let mut measured = Vec::new();
+    for shipped in scenes() {
         let path = data_of(folder, shipped.name);
         let (points, _) = json::read(&read(&path)?).with_context(|| format!("cannot read {}", path.display()))?;
         let scene = ScenePoints { name: shipped.name.to_owned(), title: shipped.title.to_owned(), points };
         let picture = folder.join("lab").join(scene.stem()).with_extension("svg");
         write(&picture, svg(&scene.title, &scene.points).as_bytes())?;
-        scenes.push(scene);
+        measured.push(scene);
     }
-    write(&folder.join("accuracy.md"), page(&machine, &scenes).as_bytes())
+    write(&folder.join("accuracy.md"), page(&machine, &measured).as_bytes())
 }
 
 fn data_of(folder: &Path, name: &str) -> PathBuf {
-    let stem = Path::new(name).file_stem().unwrap_or_default();
-    folder.join("data").join(stem).with_extension("jsonl")
+    folder.join("data").join(stem(name)).with_extension("jsonl")
 }
 
 fn read(path: &Path) -> anyhow::Result<String> {

@@ -6,7 +6,7 @@ mod progress;
 
 use super::numbers;
 use super::output::Output;
-use crate::lab::report::{table::table, text::diagram};
+use crate::lab::report::{page::scenes, table::table, text::diagram};
 use crate::lab::{Family, Front, Outcome, Point, Reference, Setting, Skip, Sweep, SweepOptions, refine, scene_length};
 use crate::scene::{self, Setup};
 use outputs::Outputs;
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Compared over so long where a scene does not say [s].
 const SECONDS: f64 = 3.0;
@@ -36,7 +36,7 @@ pub struct LabArguments {
     /// Names of shipped scenes, or paths of scene files
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
-    /// All scenes whose exact motion is stored in the program
+    /// All scenes whose exact motion is known: it is stored in the program, or has a formula
     #[arg(long)]
     truth: bool,
     /// All shipped scenes
@@ -91,7 +91,7 @@ pub struct LabArguments {
 impl LabArguments {
     /// The scenes asked for, each once.
     fn names(&self) -> Vec<&str> {
-        let shipped = if self.all { scene::every_scene() } else { scene::truth_scenes() };
+        let shipped = if self.all { scene::every_scene().to_vec() } else { scenes() };
         let mut names: Vec<&str> = Vec::new();
         let asked = self.scenes.iter().map(String::as_str);
         if self.scenes.is_empty() {
@@ -141,8 +141,9 @@ pub(super) fn execute(arguments: &LabArguments) -> anyhow::Result<ExitCode> {
             std::process::exit(130);
         }
     });
+    let begun = Instant::now();
     for (index, setup) in setups.iter().enumerate() {
-        let place = format!("{} ({} of {})", setup.name, index + 1, setups.len());
+        let place = Place { name: &setup.name, index, count: setups.len(), begun, budget: arguments.budget };
         let points = measure(arguments, setup, &place, &mut outputs)?;
         if let Some(folder) = arguments.docs.as_deref().filter(|_| !stopped()) {
             docs::keep(folder, &setup.name, &points)?;
@@ -163,8 +164,44 @@ fn stopped() -> bool {
     CANCEL.load(Ordering::Relaxed)
 }
 
-/// Measures one scene and prints what comes out. `place` is where in the list it stands.
-fn measure(arguments: &LabArguments, setup: &Setup, place: &str, outputs: &mut Outputs) -> anyhow::Result<Vec<Point>> {
+/// Where in the list a scene stands.
+struct Place<'a> {
+    name: &'a str,
+    index: usize,
+    count: usize,
+    begun: Instant,
+    budget: Duration,
+}
+
+impl Place<'_> {
+    /// What is left of a scene, and of those after it if they take what those before did.
+    fn left(&self, seconds: f64) -> String {
+        let scene = spoken(seconds);
+        if self.index + 1 == self.count {
+            return format!("{scene} left");
+        }
+        let mean = match self.index {
+            0 => self.budget.as_secs_f64(),
+            before => self.begun.elapsed().as_secs_f64() / (before + 1) as f64,
+        };
+        let all = seconds + mean * (self.count - self.index - 1) as f64;
+        format!("{scene} left, {} in all", spoken(all))
+    }
+}
+
+impl std::fmt::Display for Place<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} ({} of {})", self.name, self.index + 1, self.count)
+    }
+}
+
+/// Measures one scene and prints what comes out.
+fn measure(
+    arguments: &LabArguments,
+    setup: &Setup,
+    place: &Place,
+    outputs: &mut Outputs,
+) -> anyhow::Result<Vec<Point>> {
     let mut line = ProgressLine::new();
     let (reference, label) = reference(arguments, setup, place, &mut line);
     let seconds = arguments.seconds(setup);
@@ -175,8 +212,8 @@ fn measure(arguments: &LabArguments, setup: &Setup, place: &str, outputs: &mut O
     loop {
         let progress = sweep.progress();
         line.tell(|| {
-            let left = spoken(progress.seconds_left);
-            format!("{place}: {} of {} settings, {left} left", progress.done, progress.total)
+            let left = place.left(progress.seconds_left);
+            format!("{place}: {} of {} settings, {left}", progress.done, progress.total)
         });
         match sweep.advance(&CANCEL) {
             Outcome::Point(point) => outputs.write(&point)?,
@@ -197,7 +234,7 @@ fn measure(arguments: &LabArguments, setup: &Setup, place: &str, outputs: &mut O
 fn reference(
     arguments: &LabArguments,
     setup: &Setup,
-    place: &str,
+    place: &Place,
     line: &mut ProgressLine,
 ) -> (Option<Reference>, String) {
     let seconds = arguments.seconds(setup);

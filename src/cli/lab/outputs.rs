@@ -6,7 +6,7 @@ use crate::lab::Point;
 use crate::lab::report::{csv, json, svg::svg};
 use crate::scene::find_shipped;
 use anyhow::Context;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 
 /// What is written, point after point; every point is on disk before the next is measured.
 pub(super) struct Outputs {
@@ -115,8 +115,12 @@ fn check(named: &[(&str, &str)], scenes: &[&str]) -> anyhow::Result<()> {
 
 /// The points in a file, and how many of its bytes are whole lines.
 fn read(file: &str) -> anyhow::Result<(Vec<Point>, u64)> {
+    let advice = |error: &std::io::Error| match error.kind() {
+        ErrorKind::NotFound => format!("; measure into it with --json {file} first"),
+        _ => String::new(),
+    };
     let text = std::fs::read_to_string(file)
-        .with_context(|| format!("cannot resume from {file}: start it with --json {file}"))?;
+        .map_err(|error| anyhow::anyhow!("cannot resume from {file}: {error}{}", advice(&error)))?;
     let (points, whole) = json::read(&text).with_context(|| format!("cannot resume from {file}"))?;
     Ok((points, whole as u64))
 }

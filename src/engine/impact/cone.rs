@@ -12,6 +12,12 @@ use crate::engine::linalg::dense::{Matrix, Qr};
 
 /// Parts of the largest force or speed that count as nothing.
 const NOTHING: f64 = 1e-11;
+/// Most changes of a set, and so many more for each contact.
+const CHANGES: [usize; 2] = [32, 8];
+/// Sweeps of projected Gauss-Seidel where changes cycle.
+const SWEEPS: u32 = 200;
+/// Most times a step that Gauss-Seidel is asked for: what needs more does not run in real time.
+const RESCUES: u32 = 4;
 /// Part of the largest force that is rounding.
 const ROUNDING: f64 = 1e-13;
 /// Part of the right-hand side that may be left over where rows are redundant; more is a contradiction.
@@ -55,6 +61,8 @@ pub(super) struct Cone {
     right: Vec<f64>,
     found: Vec<f64>,
     qr: Qr,
+    /// Times that Gauss-Seidel was asked for, since it was last set to zero.
+    pub rescues: u32,
 }
 
 impl Cone {
@@ -110,10 +118,18 @@ impl Cone {
         [self.lambda[2 * i] * self.scale[2 * i], self.lambda[2 * i + 1] * self.scale[2 * i + 1]]
     }
 
-    /// Finds the set and its solution; `false` if it cycles or nothing solves the equations.
+    /// Finds the set and its solution; `false` if it cycles, also from the set that projected Gauss-Seidel comes near to.
     pub fn solve(&mut self) -> bool {
-        let m = self.normal.len();
-        for _ in 0..8 * m + 32 {
+        self.improve_set()
+            || self.rescues < RESCUES && {
+                self.rescues += 1;
+                self.sweep();
+                self.improve_set()
+            }
+    }
+
+    fn improve_set(&mut self) -> bool {
+        for _ in 0..CHANGES[0] + CHANGES[1] * self.normal.len() {
             if !self.solve_set() {
                 return false;
             }
@@ -122,6 +138,35 @@ impl Cone {
             }
         }
         false
+    }
+
+    /// Takes the set from sweeps of projected Gauss-Seidel, which never cycles and never ends.
+    fn sweep(&mut self) {
+        self.lambda.fill(0.0);
+        for _ in 0..SWEEPS {
+            for i in 0..self.normal.len() {
+                let (n, t) = (2 * i, 2 * i + 1);
+                self.lambda[n] = (self.lambda[n] - self.row_speed(n)).max(0.0);
+                let most = self.friction[i] * self.lambda[n];
+                self.lambda[t] = match self.tangent[i] {
+                    Tangent::Slide(sign) if self.slides[i] || most == 0.0 => sign * most,
+                    _ => (self.lambda[t] - self.row_speed(t)).min(most).max(-most),
+                };
+            }
+        }
+        for i in 0..self.normal.len() {
+            let [pressed, rubbed] = [self.lambda[2 * i], self.lambda[2 * i + 1]];
+            self.normal[i] = if pressed > 0.0 { Normal::On } else { Normal::Off };
+            if !self.slides[i] && self.friction[i] > 0.0 {
+                let inside = rubbed.abs() < (1.0 - 1e-6) * self.friction[i] * pressed;
+                self.tangent[i] = if inside { Tangent::Stick } else { Tangent::Slide(rubbed.signum()) };
+            }
+        }
+    }
+
+    /// u of one row; the diagonal of A is 1.
+    fn row_speed(&self, row: usize) -> f64 {
+        self.b[row] + self.a.row(row).iter().zip(&self.lambda).map(|(a, lambda)| a * lambda).sum::<f64>()
     }
 
     /// Solves the equations of the present set for all right-hand sides like b; the rows that are zero after it.

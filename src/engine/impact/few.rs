@@ -17,15 +17,21 @@ use crate::engine::world::{Touching, World};
 /// A rebound that lasts no longer than this part of a step ends in rest: some 3 pm high at 60 Hz. Smaller costs more bounces on the way there.
 const NO_TIME: f64 = 1e-4;
 /// After so many events, and so many more for each body, such a rebound may last twice as long, up to so many doublings.
-const PATIENCE: [usize; 2] = [64, 16];
+const PATIENCE: [usize; 2] = [32, 4];
 const DOUBLINGS: usize = 8;
 /// Most events of a step, and so many more for each body: what has more does not run in real time.
-const MOST_EVENTS: [usize; 2] = [2000, 200];
+const MOST_EVENTS: [usize; 2] = [300, 20];
 /// Contacts that act at once; their direct solve costs the cube.
 const MOST_AT_ONCE: usize = 96;
 
+/// Finest tolerance of motion under changing forces, in parts of the smallest radius: its meetings with others are found with this error, by
+/// steps that shrink with the cube root.
+const FINEST: f64 = 1e-8;
 /// Part of a step from which on a path under changing forces is fitted at both ends.
 const FITTED: f64 = 1e-3;
+
+/// Most of those paths in a step; their cost is that of a dozen solves each.
+const MOST_CURVES: u32 = 64;
 
 /// What ends a body's present path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +50,8 @@ pub(crate) struct Few {
     paths: Vec<Path>,
     /// Paths told from the time of the event in work.
     here: Vec<Path>,
+    /// Where bodies under changing forces will be.
+    ahead: Vec<Path>,
     /// The next event of each body, and when [s].
     next: Vec<(f64, Next)>,
     held: Vec<Held>,
@@ -66,6 +74,8 @@ pub(crate) struct Few {
     /// Length of the step [s].
     end: f64,
     events: usize,
+    /// Paths under changing forces, since the start of the step.
+    rolls: u32,
 }
 
 /// The group cannot be carried through this step.
@@ -81,7 +91,7 @@ impl Few {
     /// Makes the group anew.
     pub fn build(&mut self, world: &World, plan: &FewPlan) {
         self.surfaces.build(world, &plan.bodies);
-        self.tolerance = plan.tolerance * self.surfaces.least_radius();
+        self.tolerance = plan.tolerance.max(FINEST) * self.surfaces.least_radius();
     }
 
     /// Carries the group through `time` [s] without touching the world; `false` if it cannot be.
@@ -99,7 +109,9 @@ impl Few {
         let bodies = &world.bodies;
         self.end = time;
         self.events = 0;
+        self.rolls = 0;
         self.collisions.bounces = 0;
+        self.cone.rescues = 0;
         self.paths.clear();
         for (place, body) in self.surfaces.body.iter().enumerate() {
             let spin = bodies.spin(*body as usize).unwrap_or_default();
@@ -209,13 +221,17 @@ impl Few {
 
     /// Takes the group on under forces that change all the time.
     fn roll(&mut self, world: &World, time: f64) -> Result<(), Lost> {
-        let Few { surfaces, paths, here, rolling, cone, .. } = self;
+        let Few { surfaces, paths, ahead, rolling, cone, .. } = self;
         let frame = Frame { world, masses: &surfaces.masses, drag: surfaces.drag };
+        self.rolls += 1;
+        if self.rolls > MOST_CURVES {
+            return Err(Lost);
+        }
         let mut curve = self.spare.pop().unwrap_or_default();
         curve.begin(time, &self.group, paths, &self.resting, cone);
-        here.clone_from(paths);
+        ahead.clone_from(paths);
         if !rolling.plan(&mut curve, self.end, self.tolerance, &frame, cone, paths)
-            || !rolling.evaluate(&curve, curve.until, &frame, cone, here)
+            || !rolling.evaluate(&curve, curve.until, &frame, cone, ahead)
         {
             self.spare.push(curve);
             return Err(Lost);
@@ -226,7 +242,7 @@ impl Few {
             let weights = surfaces.drag.weights(lasts);
             for place in &curve.bodies {
                 let path = &mut paths[*place];
-                path.drive = (here[*place].position - path.position - weights.first * path.velocity) / weights.second;
+                path.drive = (ahead[*place].position - path.position - weights.first * path.velocity) / weights.second;
             }
         }
         self.curves.push(curve);

@@ -78,8 +78,8 @@ pub(super) struct Rolling {
 }
 
 impl Rolling {
-    /// Chooses the length of the step, up to the time `end` [s], with an error of `tolerance` [m] for each whole `end`. `false` if no step is
-    /// precise enough.
+    /// Chooses the length of the step, up to the time `end` [s], with an error of `tolerance` [m] for each whole `end`, and no farther than that from
+    /// a parabola. `false` if no step is precise enough.
     pub fn plan(
         &mut self,
         curve: &mut Curve,
@@ -104,18 +104,32 @@ impl Rolling {
                 .iter()
                 .map(|b| (coarse[*b].position - fine[*b].position).length() / 15.0)
                 .fold(0.0, f64::max);
+            let bend = self.bend(curve, length, frame.drag, &fine);
             (self.coarse, self.fine) = (coarse, fine);
             let allowed = tolerance * length / end;
-            if solved && error <= allowed {
+            if solved && error <= allowed && bend <= tolerance {
                 curve.until = if length == end - curve.since { end } else { curve.since + length };
                 self.stop_at_change(curve, frame, cone, paths);
                 return true;
             }
             // An unsolved step is cut, as one whose error is no number.
-            let factor = if solved && error.is_finite() { 0.9 * libm::pow(allowed / error, 0.25) } else { 0.25 };
+            let excess = libm::pow(error / allowed, 0.25).max(libm::cbrt(bend / tolerance));
+            let factor = if solved && excess.is_finite() { 0.9 / excess } else { 0.25 };
             length *= factor.clamp(0.1, 0.7);
         }
         false
+    }
+
+    /// How far the bodies are in the middle from the parabolas through both ends [m], by which meetings with others are found.
+    fn bend(&self, curve: &Curve, length: f64, drag: Drag, end: &[Path]) -> f64 {
+        let (half, whole) = (drag.weights(0.5 * length), drag.weights(length));
+        let from_parabola = |(k, place): (usize, &usize)| {
+            let start = &curve.start[k];
+            let drive = (end[*place].position - start.position - whole.first * start.velocity) / whole.second;
+            // The second half step began there.
+            (self.base[k].position - start.position - half.first * start.velocity - half.second * drive).length()
+        };
+        curve.bodies.iter().enumerate().map(from_parabola).fold(0.0, f64::max)
     }
 
     /// Where the bodies are at `time`, in `paths`, moved onto their contacts. `false` if it cannot be solved for.

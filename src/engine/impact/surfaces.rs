@@ -10,7 +10,7 @@ use crate::engine::world::{Touching, World};
 /// Surfaces nearer than this part of the smaller radius touch, and a few ulps of the coordinates more.
 const TOUCH: f64 = 1e-11;
 /// Surfaces that overlap by more than this part of the smaller radius are not carried.
-const DEEP: f64 = 1e-6;
+const DEEP: f64 = 1e-4;
 /// A wall goes on in another one where that is no farther than this part of the radius of the body that touches there.
 const JOINED: f64 = 1e-6;
 

@@ -9,6 +9,8 @@ use glam::DVec2;
 
 /// Samples within a step.
 const SAMPLES: u32 = 8;
+/// A rope that was just let go is at its length but for rounding; it tightens anew only beyond this part of L².
+const ROUNDING: f64 = 1e-13;
 
 /// What happens, to which rope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +63,7 @@ impl Series<'_> {
                     value(self.lambda, rope, t)
                 } else {
                     let (x, y) = (value(self.dx, rope, t), value(self.dy, rope, t));
-                    x * x + y * y - system.rods.square[rope]
+                    x * x + y * y - (1.0 + ROUNDING) * system.rods.square[rope]
                 }
             };
             if let Some(at) = first_change(sign, until) {

@@ -22,6 +22,9 @@ const MOST_ITERATIONS: u32 = 25;
 /// C = 0 is met to this part of L²; corrections below the second that do not shrink are rounding.
 const TIGHT: f64 = 1e-14;
 const ROUNDING: f64 = 1e-10;
+/// Part of the wanted local error to which constraints are met where only that much is asked for, and the most [in parts of L²].
+const LOOSE: f64 = 0.1;
+const FAR: f64 = 1e-6;
 /// Times that the number of steps is corrected.
 const MOST_CHANGES: u32 = 4;
 
@@ -51,6 +54,8 @@ pub(crate) struct RattleTurning {
     start_lambda: Vec<f64>,
     total: Vec<f64>,
     load: Vec<f64>,
+    /// C is met to this part of L².
+    tight: f64,
 }
 
 /// How a run of equal steps ended.
@@ -73,6 +78,10 @@ impl RattleTurning {
     pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace) -> Outcome {
         let mut outcome = Outcome { order: 2, ..Outcome::default() };
         self.reserve(system);
+        self.tight = match pace {
+            Pace::Steps(_) => TIGHT,
+            Pace::Within(tolerance) => (LOOSE * tolerance / system.length).clamp(TIGHT, FAR),
+        };
         if !system.meet_constraints() {
             return Outcome { failed: true, ..outcome };
         }
@@ -179,7 +188,7 @@ impl RattleTurning {
             self.move_by_u(system);
             system.take_differences();
             let far = system.position_error();
-            if far <= TIGHT || (far < ROUNDING && far > 0.5 * last) {
+            if far <= self.tight || (far < ROUNDING && far > 0.5 * last) {
                 self.lambda.iter_mut().zip(&self.total).for_each(|(lambda, total)| *lambda = total / weight);
                 return true;
             }
@@ -205,7 +214,7 @@ impl RattleTurning {
                 *q = from + u;
             }
         }
-        system.turning.place(nodes);
+        system.turning.place_positions(nodes);
     }
 
     /// Half of what the Verlet method leaves out of the first step, RMS over the bodies [m]: h² (a' − a)/6 of the forces, and of the

@@ -42,9 +42,9 @@ pub(crate) struct Taylor {
     lambda: Vec<Vec<f64>>,
     springs: SpringSeries,
     grip: GripSeries,
+    turning: TurningSeries,
     /// Of nodes, rods, rows and springs that there is room for.
     sizes: [usize; 4],
-    turning: TurningSeries,
     fx: Vec<f64>,
     fy: Vec<f64>,
     gx: Vec<f64>,
@@ -75,6 +75,7 @@ struct GripSeries {
 impl Taylor {
     /// Makes room for an island of `nodes`, `rods`, `rows` and `springs`.
     pub fn reserve(&mut self, system: &System) {
+        self.turning.reserve(system);
         let (nodes, rods) = (system.nodes.len(), system.rods.a.len());
         let sizes = [nodes, rods, system.rhs.len(), system.springs.len()];
         if std::mem::replace(&mut self.sizes, sizes) == sizes {
@@ -105,7 +106,6 @@ impl Taylor {
         self.grip.u.resize(HIGHEST_ORDER + 1, DVec2::ZERO);
         self.grip.square.resize(HIGHEST_ORDER + 1, 0.0);
         self.grip.inverse.resize(HIGHEST_ORDER + 1, 0.0);
-        self.turning.reserve(system);
     }
 
     /// Carries the island through `time` [s] with local errors of about `tolerance` [m].

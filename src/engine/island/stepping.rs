@@ -46,6 +46,10 @@ impl Islands {
         self.energy_momentum.resize_with(plan.islands.len(), EnergyMomentum::default);
         for plan in &plan.islands {
             let system = System::new(world, &plan.group.bodies, &plan.group.constraints, plan.linear);
+            if system.turns() {
+                // Stands in where RATTLE gives in.
+                self.taylor.reserve(&system);
+            }
             self.islands.push((plan.clone(), system));
         }
         if let Some(few) = &plan.few {
@@ -73,7 +77,9 @@ impl Islands {
                 report.sweeps = report.sweeps.max(quality.sweeps);
             }
             let system = &self.islands[index].1;
-            if outcome.failed || !in_range(system) {
+            let within = system.nodes.within(LARGEST_COORDINATE, LARGEST_SPEED)
+                && system.turning.within(LARGEST_COORDINATE * LARGEST_SPEED);
+            if outcome.failed || !within {
                 self.given_up.push(index);
                 continue;
             }
@@ -154,21 +160,8 @@ impl Islands {
         }
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
         for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
-            if world.bodies.rotors.omega.is_empty() {
-                system.store(world);
-                continue;
-            }
-            for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
-                let rotor = world.bodies.rotor[*body as usize];
-                if rotor != NO_ROTOR && world.bodies.inverse_mass[*body as usize] > 0.0 {
-                    let (decay, rotors) = (system.drag, &mut world.bodies.rotors);
-                    let omega = rotors.omega[rotor as usize];
-                    // ω' = −drag ω
-                    let kept = libm::exp(-decay * time);
-                    let mean = if decay > 0.0 { -libm::expm1(-decay * time) / decay } else { time };
-                    rotors.angle[rotor as usize] += omega * mean;
-                    rotors.omega[rotor as usize] = omega * kept;
-                }
+            if !world.bodies.rotors.omega.is_empty() {
+                turn_freely(system, world, time);
             }
             // After that, as it knows better of what does not turn freely.
             system.store(world);
@@ -176,10 +169,18 @@ impl Islands {
     }
 }
 
-/// Whether all nodes are where numbers mean something, and turn as fast as numbers allow.
-fn in_range(system: &System) -> bool {
-    // Written so that a NaN is out of range.
-    let within = |values: &[f64]| values.iter().all(|value| value.abs() <= LARGEST_SPEED * LARGEST_COORDINATE);
-    let rotors = &system.turning.rotors;
-    system.nodes.within(LARGEST_COORDINATE, LARGEST_SPEED) && within(&rotors.angle) && within(&rotors.omega)
+/// Turns all discs of an island on for `time` [s] as if nothing turned them: ω' = −drag ω.
+fn turn_freely(system: &System, world: &mut World, time: f64) {
+    let decay = system.drag;
+    let kept = libm::exp(-decay * time);
+    let mean = if decay > 0.0 { -libm::expm1(-decay * time) / decay } else { time };
+    let bodies = &mut world.bodies;
+    for body in system.nodes.body.iter().filter(|body| **body != WORLD) {
+        let rotor = bodies.rotor[*body as usize];
+        if rotor != NO_ROTOR && bodies.inverse_mass[*body as usize] > 0.0 {
+            let omega = bodies.rotors.omega[rotor as usize];
+            bodies.rotors.angle[rotor as usize] += omega * mean;
+            bodies.rotors.omega[rotor as usize] = omega * kept;
+        }
+    }
 }

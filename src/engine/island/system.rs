@@ -101,7 +101,7 @@ impl System {
             (is_rope, pairs::order(*a, *b), *i)
         });
         joined.into_iter().for_each(|((a, b), i)| system.add_constraint(world, a, b, i));
-        system.turning.hold(world, &mut system.nodes, bodies);
+        system.turning.hold(world, &mut system.nodes);
         let rows = system.rods.a.len();
         (system.dx, system.dy) = (vec![0.0; rows], vec![0.0; rows]);
         system.scratch = [vec![0.0; rows], vec![0.0; rows]];

@@ -1,7 +1,8 @@
-//! The page of `docs/` about all truth scenes, from points that were measured before.
+//! The page of `docs/` about all scenes whose exact motion is known, from points that were measured before.
 
 use crate::lab::front::{error, factor_text, plain, short};
 use crate::lab::{CLOCK, Family, Front, Gain, Point, Setting};
+use crate::scene::{Shipped, every_scene, parse, truth_scenes};
 use serde::{Deserialize, Serialize};
 
 const TEMPLATE: &str = include_str!("accuracy.md");
@@ -46,25 +47,50 @@ pub struct ScenePoints {
 }
 
 impl ScenePoints {
-    /// The name without its folder: of its files in `docs/`.
-    pub fn stem(&self) -> &str {
-        self.name.rsplit('/').next().unwrap_or(&self.name)
+    /// What its files in `docs/` are called.
+    pub fn stem(&self) -> String {
+        stem(&self.name)
     }
+
+    /// Whether it is one of the truth scenes, and not a hard case with a formula.
+    fn is_truth(&self) -> bool {
+        self.name.starts_with(TRUTH)
+    }
+}
+
+const TRUTH: &str = "truth/";
+
+/// What the files of a scene in `docs/` are called: "rope" for "truth/rope", "hard-pendulum" for "hard/pendulum".
+pub fn stem(name: &str) -> String {
+    name.strip_prefix(TRUTH).unwrap_or(name).replace('/', "-")
+}
+
+/// The scenes of the page: the truth scenes, then all others that name a formula.
+pub fn scenes() -> Vec<Shipped> {
+    let has_formula = |scene: &&Shipped| {
+        let setup = parse(scene.name, scene.text);
+        setup.is_ok_and(|setup| setup.truth.is_some_and(|truth| truth.form.is_some()))
+    };
+    let others = every_scene().iter().filter(|scene| !truth_scenes().contains(scene)).filter(has_formula);
+    truth_scenes().iter().chain(others).copied().collect()
 }
 
 /// The whole page. Diagrams are expected in the folder `lab` beside it.
 pub fn page(machine: &Machine, scenes: &[ScenePoints]) -> String {
     let Machine { cpu, cores, system, version, clock } = machine;
     let about = format!("Measured on: {cpu}, {cores} cores, {system}; Tautline {version}, optimised build; {clock}.");
+    let (truth, hard): (Vec<&ScenePoints>, Vec<&ScenePoints>) = scenes.iter().partition(|scene| scene.is_truth());
     TEMPLATE
         .replace("{{machine}}", &about)
-        .replace("{{gains}}", gains(scenes).trim_end())
-        .replace("{{diagrams}}", diagrams(scenes).trim_end())
+        .replace("{{gains}}", gains(&truth).trim_end())
+        .replace("{{diagrams}}", diagrams(&truth).trim_end())
+        .replace("{{hard gains}}", gains(&hard).trim_end())
+        .replace("{{hard diagrams}}", diagrams(&hard).trim_end())
         .replace("{{losses}}", losses(scenes).trim_end())
 }
 
 /// By how much the best method beats the baseline, a row a scene.
-pub fn gains(scenes: &[ScenePoints]) -> String {
+pub fn gains(scenes: &[&ScenePoints]) -> String {
     let mut text = "| Scene | Baseline | Best at its cost | Error smaller by | Cheapest at its error | Cheaper by |\n\
                     |---|---|---|---|---|---|\n"
         .to_owned();
@@ -89,14 +115,14 @@ pub fn gains(scenes: &[ScenePoints]) -> String {
     text
 }
 
-fn diagrams(scenes: &[ScenePoints]) -> String {
+fn diagrams(scenes: &[&ScenePoints]) -> String {
     let one = |scene: &ScenePoints| {
         let front = Front::of(&scene.points);
         let advice = [1e-3, 1e-6, 1e-9].map(|wanted| format!("- {}", front.advice_for_error(wanted))).join("\n");
         let (title, stem) = (&scene.title, scene.stem());
         format!("### {title}\n\n![Speed against error: {title}](lab/{stem}.svg)\n\n{advice}\n\n")
     };
-    scenes.iter().map(one).collect()
+    scenes.iter().copied().map(one).collect()
 }
 
 /// Where the dial is not the best choice, a row a scene.

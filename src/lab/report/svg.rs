@@ -107,8 +107,7 @@ impl Plot {
 
     fn marks(&self, out: &mut String, points: &[&Point], front: &Front) {
         let place = |point: &Point| [self.x(point.cpu_us_per_second), self.y(error(point))];
-        let along: Vec<String> =
-            front.points().iter().map(|point| place(point)).map(|[x, y]| format!("{x:.1} {y:.1}")).collect();
+        let along: Vec<String> = front.points().iter().map(place).map(|[x, y]| format!("{x:.1} {y:.1}")).collect();
         if !along.is_empty() {
             let _ = writeln!(out, r#"<path class="front" d="M{}"/>"#, along.join("L"));
         }

@@ -1,5 +1,6 @@
 //! Bodies on a plane: bouncing, sliding, rolling.
 
+use super::impacts::can_touch;
 use super::motion::{Course, Ground, Part};
 use super::{refuse_drag, refuse_links};
 use crate::engine::{DVec2, Shape, Wall, World};
@@ -64,6 +65,38 @@ pub(super) fn roll(world: &World, body: usize) -> Result<Part, String> {
         omega: spin.omega * plane.normal.perp().dot(down).signum(),
     };
     Ok(on_slope(body, &plane, down, Course::Roll(roll)))
+}
+
+/// Refuses a body that does not lie on a plane without friction.
+pub(super) fn refuse_rough_floor(world: &World, body: usize) -> Result<(), String> {
+    let plane = plane_under(world, body)?;
+    if plane.gap > TOUCHING || plane.friction > 0.0 {
+        return Err(format!("body {body} in the air or on a floor with friction {:?}", plane.friction));
+    }
+    Ok(())
+}
+
+/// Checks that bodies are at rest, each on a level plane or exactly above another one, and touch what they stand on.
+pub(super) fn stack(world: &World, moving: &[usize]) -> Result<(), String> {
+    let (bodies, gravity) = (world.bodies(), world.gravity().length());
+    let down = world.gravity().try_normalize().ok_or("no gravity")?;
+    for &i in moving {
+        if bodies.velocity[i] != DVec2::ZERO || bodies.spin(i).is_some_and(|spin| spin.omega != 0.0) {
+            return Err(format!("body {i}, which moves"));
+        }
+        let stands_on = |&b: &usize| {
+            let below = bodies.position[b] - bodies.position[i];
+            let touches = (below.length() - bodies.radius[i] - bodies.radius[b]).abs() <= TOUCHING;
+            b != i && can_touch(world, i, b) && touches && below.perp_dot(down) == 0.0 && below.dot(down) > 0.0
+        };
+        let level = |plane: Plane| plane.gap <= TOUCHING && plane.normal.dot(down) <= -1.0 + 1e-15;
+        if (0..bodies.len()).any(|b| stands_on(&b)) {
+            refuse_links(world, i)?;
+        } else if !plane_under(world, i).is_ok_and(level) {
+            return Err(format!("body {i}, which stands on nothing level under {gravity:?} m/s²"));
+        }
+    }
+    Ok(())
 }
 
 fn on_slope(body: usize, plane: &Plane, down: DVec2, course: Course) -> Part {

@@ -15,8 +15,16 @@ pub(super) fn projectile(world: &World, body: usize) -> Result<Part, String> {
     Ok(Part::Free { body, velocity, gravity: world.gravity(), drag: world.drag() })
 }
 
-/// The only constraint on `body`, and the fixed point at its other end [m].
-fn tied(world: &World, body: usize) -> Result<(Kind, DVec2), String> {
+/// The only constraint on `body`.
+struct Tie {
+    kind: Kind,
+    /// Whether it holds the body at its centre.
+    central: bool,
+    /// The fixed point at its other end [m].
+    point: DVec2,
+}
+
+fn tied(world: &World, body: usize) -> Result<Tie, String> {
     let [k] = links(world, body)[..] else {
         return Err(format!("{} constraints on it, not one", links(world, body).len()));
     };
@@ -26,18 +34,18 @@ fn tied(world: &World, body: usize) -> Result<(Kind, DVec2), String> {
     if world.bodies().motion.get(other).is_some() && world.is_dynamic(other) {
         return Err("a constraint to another body that moves".into());
     }
-    if own != world.bodies().position[body] {
-        return Err("a constraint that holds it off its centre".into());
-    }
-    Ok((c.kind[k], point))
+    Ok(Tie { kind: c.kind[k], central: own == world.bodies().position[body], point })
 }
 
 /// Along the spring m s̈ = −k (s − rest) − (c + m drag) ṡ + m g, which swings about s = rest + m g/k.
 pub(super) fn oscillator(world: &World, body: usize) -> Result<Part, String> {
-    let (kind, point) = tied(world, body)?;
+    let Tie { kind, central, point } = tied(world, body)?;
     let Kind::Spring { rest, stiffness, damping } = kind else {
         return Err(format!("a {} on it, not a spring", kind.name().to_lowercase()));
     };
+    if !central {
+        return Err("a spring that holds it off its centre".into());
+    }
     let bodies = world.bodies();
     let (mass, velocity) = (bodies.mass[body], bodies.velocity[body]);
     let stiffness = stiffness * world.tuning().stiffness;
@@ -68,19 +76,26 @@ pub(super) fn oscillator(world: &World, body: usize) -> Result<Part, String> {
     Ok(Part::Axes { body, axes: [axis, axis.perp()], courses, ground: None })
 }
 
+/// A mass on a rod, or a disc on a pin off its centre: the same motion with the length (I + m d²)/(m d), d from pin to centre
+/// (Huygens' compound pendulum).
 pub(super) fn pendulum(world: &World, body: usize) -> Result<Part, String> {
     refuse_drag(world)?;
-    let (kind, pivot) = tied(world, body)?;
-    let Kind::Rod { length } = kind else {
-        return Err(format!("a {} on it, not a rod", kind.name().to_lowercase()));
-    };
+    let Tie { kind, central, point: pivot } = tied(world, body)?;
     let (bodies, gravity) = (world.bodies(), world.gravity().length());
     let offset = bodies.position[body] - pivot;
-    if bodies.velocity[body] != DVec2::ZERO {
+    let arm = offset.length();
+    let length = match kind {
+        Kind::Rod { length } if central && (arm - length).abs() <= 1e-9 * length => length,
+        Kind::Rod { .. } => return Err("a rod that starts stretched, or holds it off its centre".into()),
+        Kind::Pin if arm > 0.0 && !central => arm + 0.5 * bodies.radius[body] * bodies.radius[body] / arm,
+        kind => return Err(format!("a {} on it, neither a rod nor a pin off its centre", kind.name().to_lowercase())),
+    };
+    let turns = bodies.spin(body).is_some_and(|spin| spin.omega != 0.0);
+    if bodies.velocity[body] != DVec2::ZERO || turns && kind == Kind::Pin {
         return Err("a velocity at the start".into());
     }
-    if !(gravity > 0.0) || (offset.length() - length).abs() > 1e-9 * length {
-        return Err("no gravity, or a rod that starts stretched".into());
+    if !(gravity > 0.0) {
+        return Err("no gravity".into());
     }
     let down = world.gravity() / gravity;
     let amplitude = libm::atan2(offset.dot(down.perp()), offset.dot(down));
@@ -88,5 +103,6 @@ pub(super) fn pendulum(world: &World, body: usize) -> Result<Part, String> {
     if amplitude.abs() > PI - 1e-3 {
         return Err("a rod that stands upright".into());
     }
-    Ok(Part::Pendulum { body, pivot, down, pendulum: Pendulum { length, gravity, amplitude } })
+    let arm = if kind == Kind::Pin { arm } else { length };
+    Ok(Part::Pendulum { body, pivot, down, arm, pendulum: Pendulum { length, gravity, amplitude } })
 }

@@ -1,6 +1,6 @@
 //! Bodies that meet each other or walls with nothing to pull them: an encounter of two, a row, a box.
 
-use super::contacts::sides;
+use super::contacts::{refuse_rough_floor, sides};
 use super::motion::{Course, Part};
 use super::{refuse_drag, refuse_links};
 use crate::engine::{DVec2, World};
@@ -26,13 +26,34 @@ pub(super) fn can_touch(world: &World, a: usize, b: usize) -> bool {
     solid(a) && solid(b) && (bodies.group[a] == 0 || bodies.group[a] != bodies.group[b])
 }
 
-pub(super) fn exchange(world: &World, moving: &[usize]) -> Result<Part, String> {
+/// Who meets whom is found from the motions at the start, the earliest first; all others fly freely.
+pub(super) fn exchange(world: &World, moving: &[usize]) -> Result<Vec<Part>, String> {
     refuse_drag(world)?;
-    let [a, b] = moving[..] else { return Err(format!("{} bodies that move, not two", moving.len())) };
     moving.iter().try_for_each(|&i| refuse_links(world, i))?;
-    if !can_touch(world, a, b) {
-        return Err("bodies that cannot touch each other".into());
+    let pairs = moving.iter().enumerate().flat_map(|(k, &a)| moving[k + 1..].iter().map(move |&b| [a, b]));
+    let meeting = |[a, b]: [usize; 2]| {
+        let encounter = encounter(world, a, b);
+        encounter.impact_time().filter(|_| can_touch(world, a, b)).map(|time| (time, [a, b], encounter))
+    };
+    let mut meetings: Vec<_> = pairs.filter_map(meeting).collect();
+    meetings.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut parts, mut met) = (Vec::new(), Vec::new());
+    for (_, bodies, encounter) in meetings {
+        if !bodies.iter().any(|body| met.contains(body)) {
+            met.extend(bodies);
+            parts.push(Part::Pair { bodies, encounter });
+        }
     }
+    if parts.is_empty() {
+        return Err("no two bodies that meet".into());
+    }
+    let (velocity, gravity) = (&world.bodies().velocity, world.gravity());
+    let alone = moving.iter().filter(|body| !met.contains(body));
+    parts.extend(alone.map(|&body| Part::Free { body, velocity: velocity[body], gravity, drag: 0.0 }));
+    Ok(parts)
+}
+
+fn encounter(world: &World, a: usize, b: usize) -> Encounter {
     let bodies = world.bodies();
     let hitting = |i: usize| {
         let (mass, radius, spin) = (bodies.mass[i], bodies.radius[i], bodies.spin(i));
@@ -46,14 +67,11 @@ pub(super) fn exchange(world: &World, moving: &[usize]) -> Result<Part, String> 
     };
     let (restitution, friction) = material(world, a, b);
     let positions = [bodies.position[a], bodies.position[b]];
-    let encounter =
-        Encounter { discs: [hitting(a), hitting(b)], positions, gravity: world.gravity(), restitution, friction };
-    Ok(Part::Pair { bodies: [a, b], encounter })
+    Encounter { discs: [hitting(a), hitting(b)], positions, gravity: world.gravity(), restitution, friction }
 }
 
 pub(super) fn row(world: &World, moving: &[usize]) -> Result<Part, String> {
     refuse_drag(world)?;
-    refuse_gravity(world)?;
     moving.iter().try_for_each(|&i| refuse_links(world, i))?;
     let bodies = world.bodies();
     let first = moving[0];
@@ -68,6 +86,12 @@ pub(super) fn row(world: &World, moving: &[usize]) -> Result<Part, String> {
     let off_line = |v: DVec2| v.perp_dot(axis).abs() > 1e-12 * (1.0 + v.length());
     if moving.iter().any(|&i| off_line(offset(i)) || off_line(bodies.velocity[i])) {
         return Err("a place or a velocity off the line".into());
+    }
+    if world.gravity() != DVec2::ZERO {
+        if world.gravity().dot(axis).abs() > 1e-12 * world.gravity().length() {
+            return Err("gravity along the line".into());
+        }
+        moving.iter().try_for_each(|&i| refuse_rough_floor(world, i))?;
     }
     let mut order = moving.to_vec();
     order.sort_by(|&a, &b| offset(a).dot(axis).total_cmp(&offset(b).dot(axis)));

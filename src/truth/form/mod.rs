@@ -25,13 +25,13 @@ pub enum ClosedForm {
     Projectile,
     /// Bodies that swing along a spring to a fixed point, damped or not.
     Oscillator,
-    /// Bodies on a rod to a fixed point, let go at rest.
+    /// Bodies on a rod to a fixed point, or discs pinned off their centres, let go at rest.
     Pendulum,
     /// Balls that bounce on a plane.
     Bounce,
-    /// Two discs that meet, with nothing else near.
+    /// Bodies that meet in pairs, with nothing else near.
     Exchange,
-    /// Equal balls on a line that meet elastically.
+    /// Equal balls on a line that meet elastically, in empty space or on a smooth floor.
     Row,
     /// Balls between elastic walls along the axes.
     Billiard,
@@ -39,13 +39,15 @@ pub enum ClosedForm {
     Slide,
     /// Discs that turn, on a slope.
     Roll,
+    /// Bodies that stand upright on each other and stay.
+    Stack,
 }
 
 impl ClosedForm {
     /// All of them.
-    pub const ALL: [ClosedForm; 9] = {
+    pub const ALL: [ClosedForm; 10] = {
         use ClosedForm::*;
-        [Projectile, Oscillator, Pendulum, Bounce, Exchange, Row, Billiard, Slide, Roll]
+        [Projectile, Oscillator, Pendulum, Bounce, Exchange, Row, Billiard, Slide, Roll, Stack]
     };
 
     /// The name in a scene file.
@@ -60,6 +62,7 @@ impl ClosedForm {
             ClosedForm::Billiard => "Billiard",
             ClosedForm::Slide => "Slide",
             ClosedForm::Roll => "Roll",
+            ClosedForm::Stack => "Stack",
         }
     }
 
@@ -68,13 +71,16 @@ impl ClosedForm {
         match self {
             ClosedForm::Projectile => "bodies that nothing holds and that touch nothing",
             ClosedForm::Oscillator => "bodies that each swing along one spring to a fixed point",
-            ClosedForm::Pendulum => "bodies that each start at rest on one rod to a fixed point, without drag",
+            ClosedForm::Pendulum => "bodies that each start at rest on one rod or pin to a fixed point, without drag",
             ClosedForm::Bounce => "balls that each fall onto one plane, without drag or slip along it",
-            ClosedForm::Exchange => "two bodies with nothing else near, without drag",
-            ClosedForm::Row => "equal balls on one line, fully elastic, without gravity and drag",
+            ClosedForm::Exchange => "bodies that meet in pairs with nothing else near, without drag",
+            ClosedForm::Row => {
+                "equal balls on one line, fully elastic, without drag, and without gravity or on a smooth floor"
+            }
             ClosedForm::Billiard => "balls between fully elastic smooth walls along the axes, without gravity and drag",
             ClosedForm::Slide => "particles that touch one plane each, without drag",
             ClosedForm::Roll => "discs that turn and touch one plane each, without drag",
+            ClosedForm::Stack => "bodies at rest, each exactly above another or on a level plane, and touching it",
         }
     }
 
@@ -113,7 +119,8 @@ impl ClosedForm {
             ClosedForm::Slide => each(contacts::slide),
             ClosedForm::Roll => each(contacts::roll),
             ClosedForm::Billiard => each(impacts::billiard),
-            ClosedForm::Exchange => impacts::exchange(world, &moving).map(|part| vec![part]),
+            ClosedForm::Exchange => impacts::exchange(world, &moving),
+            ClosedForm::Stack => contacts::stack(world, &moving).map(|()| Vec::new()),
             ClosedForm::Row => impacts::row(world, &moving).map(|part| vec![part]),
         }
     }

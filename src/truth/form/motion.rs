@@ -29,11 +29,12 @@ pub(super) enum Part {
         courses: [Course; 2],
         ground: Option<Ground>,
     },
-    /// `down` is the direction of gravity.
+    /// `down` is the direction of gravity, `arm` the distance of the centre from the pivot [m].
     Pendulum {
         body: usize,
         pivot: DVec2,
         down: DVec2,
+        arm: f64,
         pendulum: Pendulum,
     },
     Pair {
@@ -103,8 +104,8 @@ impl Motion {
                 Part::Axes { body, axes, courses, .. } => {
                     positions[*body] += courses[0].at(t) * axes[0] + courses[1].at(t) * axes[1];
                 }
-                Part::Pendulum { body, pivot, down, pendulum } => {
-                    let at = pendulum.at(t);
+                Part::Pendulum { body, pivot, down, arm, pendulum } => {
+                    let at = arm / pendulum.length * pendulum.at(t);
                     positions[*body] = *pivot + at.x * down.perp() - at.y * *down;
                 }
                 Part::Pair { bodies, encounter } => {

@@ -26,6 +26,8 @@ pub(super) struct TurningSeries {
     /// Forces at the arms' ends, in units of kg m / (time scale)².
     fx: Vec<Vec<f64>>,
     fy: Vec<Vec<f64>>,
+    /// By arm.
+    torque: Vec<f64>,
     /// By rotor: torque, then angular acceleration.
     alpha: Vec<f64>,
     radius: Vec<f64>,
@@ -49,6 +51,7 @@ impl TurningSeries {
         for series in [&mut self.x, &mut self.y, &mut self.fx, &mut self.fy] {
             room(series, arms);
         }
+        self.torque.resize(arms, 0.0);
         self.alpha.resize(rotors, 0.0);
         self.radius.clone_from(&system.turning.rotors.radius);
     }
@@ -87,15 +90,18 @@ impl TurningSeries {
 
     /// What is known of the cosines and sines of this order without θ of this order.
     fn know_circle(&mut self, order: usize) {
-        let over = 1.0 / order as f64;
-        for i in 0..self.alpha.len() {
-            let (mut cos, mut sin) = (0.0, 0.0);
-            for j in 1..order {
-                let rate = j as f64 * self.angle[j][i];
-                cos -= rate * self.sin[order - j][i];
-                sin += rate * self.cos[order - j][i];
+        let (cos_before, cos) = self.cos.split_at_mut(order);
+        let (sin_before, sin) = self.sin.split_at_mut(order);
+        cos[0].fill(0.0);
+        sin[0].fill(0.0);
+        for j in 1..order {
+            let weight = j as f64 / order as f64;
+            let before = self.angle[j].iter().zip(&cos_before[order - j]).zip(&sin_before[order - j]);
+            for (((angle, c), s), (cos, sin)) in before.zip(cos[0].iter_mut().zip(&mut sin[0])) {
+                let rate = weight * angle;
+                *cos -= rate * s;
+                *sin += rate * c;
             }
-            (self.cos[order][i], self.sin[order][i]) = (over * cos, over * sin);
         }
     }
 
@@ -121,16 +127,23 @@ impl TurningSeries {
     /// accelerations.
     fn gather(&mut self, system: &System, scale: f64, k: usize, fx: &mut [f64], fy: &mut [f64]) {
         let (rotors, arms) = (&system.turning.rotors, &system.turning.arms);
-        self.alpha.fill(0.0);
         for (i, (point, rotor)) in arms.point.iter().zip(&arms.rotor).enumerate() {
-            let (point, rotor) = (*point as usize, *rotor as usize);
-            let node = rotors.node[rotor] as usize;
+            let (point, node) = (*point as usize, rotors.node[*rotor as usize] as usize);
             (self.fx[k][i], self.fy[k][i]) = (fx[point], fy[point]);
             fx[node] += fx[point];
             fy[node] += fy[point];
-            for j in 0..=k {
-                self.alpha[rotor] += self.x[j][i] * self.fy[k - j][i] - self.y[j][i] * self.fx[k - j][i];
+        }
+        self.torque.fill(0.0);
+        for j in 0..=k {
+            let force = self.fx[k - j].iter().zip(&self.fy[k - j]);
+            for (torque, ((x, y), (fx, fy))) in self.torque.iter_mut().zip(self.x[j].iter().zip(&self.y[j]).zip(force))
+            {
+                *torque += x * fy - y * fx;
             }
+        }
+        self.alpha.fill(0.0);
+        for (torque, rotor) in self.torque.iter().zip(&arms.rotor) {
+            self.alpha[*rotor as usize] += torque;
         }
         let rate = system.drag * scale * (k + 1) as f64;
         for (i, alpha) in self.alpha.iter_mut().enumerate() {

@@ -123,12 +123,12 @@ impl Turning {
         }
     }
 
-    /// Takes an arm for the mouse's hold on one of the bodies `movable`, if it turns a disc.
-    pub fn hold(&mut self, world: &World, nodes: &mut Nodes, movable: &[u32]) {
+    /// Takes an arm for the mouse's hold, if it turns a disc of the island.
+    pub fn hold(&mut self, world: &World, nodes: &mut Nodes) {
         let Some(grip) = world.turning_grip() else { return };
         let body = world.bodies.index_of(grip.body).map(|body| body as u32);
-        let body = body.filter(|body| movable.binary_search(body).is_ok());
-        if let Some(node) = nodes.body.iter().position(|other| Some(*other) == body) {
+        let own = |node: &usize| Some(nodes.body[*node]) == body && nodes.w[*node] > 0.0;
+        if let Some(node) = (0..nodes.len()).find(own) {
             self.held = Some(self.arms.point.len());
             self.anchor(world, nodes, node as u32, grip.local);
         }
@@ -167,8 +167,20 @@ impl Turning {
         }
     }
 
+    /// Whether all angles and their rates are where numbers mean something.
+    pub fn within(&self, most: f64) -> bool {
+        // Written so that a NaN is out of range.
+        self.rotors.angle.iter().chain(&self.rotors.omega).all(|value| value.abs() <= most)
+    }
+
     /// Moves the anchors to where their bodies are, and gives them the velocities that they have there.
     pub fn place(&mut self, nodes: &mut Nodes) {
+        self.place_positions(nodes);
+        self.place_velocities(nodes);
+    }
+
+    /// p = x + R(θ) r.
+    pub fn place_positions(&mut self, nodes: &mut Nodes) {
         let (rotors, arms) = (&mut self.rotors, &mut self.arms);
         for ((angle, cos), sin) in rotors.angle.iter().zip(&mut rotors.cos).zip(&mut rotors.sin) {
             (*sin, *cos) = libm::sincos(*angle);
@@ -179,7 +191,6 @@ impl Turning {
             (arms.x[i], arms.y[i]) = (cos * local.x - sin * local.y, sin * local.x + cos * local.y);
             (nodes.x[point], nodes.y[point]) = (nodes.x[node] + arms.x[i], nodes.y[node] + arms.y[i]);
         }
-        self.place_velocities(nodes);
     }
 
     /// ṗ = v + ω × e.
