@@ -26,6 +26,17 @@ pub enum Limit {
     Spin(f64),
     /// Root mean square distance from the known motion over all bodies and known samples, in parts of the scene's length.
     Truth(f64),
+    /// Worst change of the total momentum, in parts of what it was at the start.
+    Momentum(f64),
+    /// Deepest overlap of two surfaces, all through [m].
+    Overlap(f64),
+    /// Largest distance of a body from where it started, all through [m].
+    Stay(f64),
+    /// Worst sum of weight and contact forces on a body at the end, in parts of its weight: 0 if every contact carries what lies
+    /// above it. For bodies that only contacts hold.
+    Balance(f64),
+    /// Bodies that move at the end are no more than so many.
+    Moving(u32),
     /// Speed of the fastest body, all through [m/s].
     Speed(f64),
     /// Largest distance of a body from the origin, all through [m].
@@ -46,7 +57,13 @@ impl Limit {
             | Limit::Truth(bound)
             | Limit::Speed(bound)
             | Limit::Reach(bound)
+            | Limit::Momentum(bound)
+            | Limit::Overlap(bound)
+            | Limit::Stay(bound)
+            | Limit::Balance(bound)
             | Limit::Rest(bound) => bound,
+            // No more than so many are fewer than one more.
+            Limit::Moving(most) => f64::from(most) + 1.0,
             // A whole number below one is none.
             Limit::Redundant(_) => 1.0,
         }
@@ -55,9 +72,15 @@ impl Limit {
     /// "m", "m/s", or nothing for a part of something.
     pub fn unit(&self) -> &'static str {
         match self {
-            Limit::Gap(_) | Limit::Reach(_) => "m",
+            Limit::Gap(_) | Limit::Reach(_) | Limit::Overlap(_) | Limit::Stay(_) => "m",
             Limit::Speed(_) | Limit::Rest(_) => "m/s",
-            Limit::Energy(_) | Limit::Spin(_) | Limit::Truth(_) | Limit::Redundant(_) => "",
+            Limit::Energy(_)
+            | Limit::Spin(_)
+            | Limit::Truth(_)
+            | Limit::Momentum(_)
+            | Limit::Balance(_)
+            | Limit::Moving(_)
+            | Limit::Redundant(_) => "",
         }
     }
 
@@ -68,6 +91,11 @@ impl Limit {
             Limit::Energy(_) => "energy drift",
             Limit::Spin(_) => "angular momentum drift",
             Limit::Truth(_) => "error against the truth",
+            Limit::Momentum(_) => "momentum drift",
+            Limit::Overlap(_) => "overlap",
+            Limit::Stay(_) => "distance from the start",
+            Limit::Balance(_) => "force not in balance at the end",
+            Limit::Moving(_) => "moving bodies at the end",
             Limit::Speed(_) => "speed",
             Limit::Reach(_) => "reach",
             Limit::Rest(_) => "speed at the end",
@@ -77,6 +105,6 @@ impl Limit {
 
     /// Whether only the value at the end counts.
     pub fn is_of_the_end(&self) -> bool {
-        matches!(self, Limit::Rest(_))
+        matches!(self, Limit::Rest(_) | Limit::Balance(_) | Limit::Moving(_))
     }
 }

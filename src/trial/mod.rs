@@ -1,6 +1,6 @@
 //! Trials: the pass of a scene, evaluated while it runs. The window's badges and the tests ask the same evaluator.
 
-use crate::engine::{StepReport, World};
+use crate::engine::{DVec2, StepReport, Touching, World};
 use crate::measure::{EnergyDrift, ErrorSum, Measures};
 use crate::scene::{Limit, Pass, Setup};
 use crate::truth::Trajectory;
@@ -60,12 +60,17 @@ pub struct Verdict {
 pub struct Trial {
     verdict: Arc<Verdict>,
     start: Measures,
+    /// Where the bodies started [m].
+    places: Vec<DVec2>,
     energy: EnergyDrift,
     /// Largest change of the total energy so far [J].
     drift: f64,
     truth: Option<Arc<Trajectory>>,
     distance: ErrorSum,
 }
+
+/// Slower bodies do not move [m/s].
+const STILL: f64 = 1e-9;
 
 /// A trial is over when a step ends less than this before its time [s].
 const SAME_TIME: f64 = 1e-9;
@@ -81,6 +86,7 @@ impl Trial {
             verdict: Arc::new(Verdict { state: State::Running, time: setup.world.time(), seconds, lines }),
             energy: EnergyDrift::new(&start),
             start,
+            places: setup.world.bodies().position.clone(),
             drift: 0.0,
             truth: needs_truth.then(|| setup.known_motion()).flatten().map(Arc::new),
             distance: ErrorSum::default(),
@@ -146,6 +152,22 @@ impl Trial {
                 Some(truth) => self.distance.rms() / truth.length,
                 None => f64::NAN,
             },
+            Limit::Momentum(_) => {
+                let change = (measures.momentum - self.start.momentum).length();
+                greater(line.value, ratio(change, self.start.momentum.length()))
+            }
+            Limit::Overlap(_) => greater(line.value, measures.penetration_max),
+            Limit::Stay(_) => {
+                let pairs = self.places.iter().zip(&world.bodies().position);
+                let furthest = pairs.fold(0.0, |most, (start, now)| greater(most, start.distance(*now)));
+                greater(line.value, furthest)
+            }
+            Limit::Balance(_) => out_of_balance(world),
+            Limit::Moving(_) => {
+                let speeds = world.bodies().velocity.iter().map(|velocity| velocity.length());
+                // Not at rest is what is not below the limit, so that what is not a number counts too.
+                speeds.filter(|speed| !(*speed < STILL)).count() as f64
+            }
             Limit::Speed(_) => greater(line.value, fastest()),
             Limit::Reach(_) => {
                 let furthest = world.bodies().position.iter().fold(0.0, |most, p| greater(most, p.length()));
@@ -163,6 +185,21 @@ impl Trial {
             self.distance.add(sample, &world.bodies().position);
         }
     }
+}
+
+/// Largest sum of weight and contact forces on a body, in parts of its weight.
+fn out_of_balance(world: &World) -> f64 {
+    let bodies = world.bodies();
+    let mut force: Vec<DVec2> = bodies.mass.iter().map(|mass| *mass * world.gravity()).collect();
+    for contact in world.contacts() {
+        let push = contact.normal_force * contact.normal + contact.tangent_force * contact.normal.perp();
+        force[contact.a as usize] += push;
+        if let Touching::Body(other) = contact.b {
+            force[other as usize] -= push;
+        }
+    }
+    let dynamic = (0..bodies.len()).filter(|index| world.is_dynamic(*index));
+    dynamic.fold(0.0, |most, i| greater(most, ratio(force[i].length(), bodies.mass[i] * world.gravity().length())))
 }
 
 /// The larger one; what is not a number is larger than anything.

@@ -4,12 +4,15 @@ use super::format::{digits, minus, round_si, si};
 use super::{theme, widgets};
 use crate::scene::Limit;
 use crate::trial::{Line, State, Verdict};
-use egui::{Align2, FontId, Rect, Stroke, Ui, pos2};
+use egui::{Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 /// "joint gap < 1 mm".
 pub fn limit_text(limit: &Limit) -> String {
     if let Limit::Redundant(least) = limit {
         return format!("all {least} redundant rows reported");
+    }
+    if let Limit::Moving(most) = limit {
+        return format!("at most {most} moving at the end");
     }
     format!("{} < {}", limit.name(), quantity(limit.bound(), limit.unit(), round_si))
 }
@@ -29,7 +32,7 @@ fn value_text(line: &Line) -> String {
         return "not known".into();
     }
     match line.limit {
-        Limit::Redundant(_) => digits(line.value),
+        Limit::Redundant(_) | Limit::Moving(_) => digits(line.value),
         limit => quantity(line.value, limit.unit(), si),
     }
 }
@@ -60,26 +63,30 @@ pub fn wanted(pass: &crate::scene::Pass) -> String {
     format!("Pass, not tried: {} for {} s, as it opens.", limits.join(" and "), pass.seconds)
 }
 
-/// Paints the mark at the right end of an entry: a ring while untried, filled while it runs, a tick or a cross.
-pub fn paint(ui: &Ui, entry: Rect, state: Option<State>, on_accent: bool) {
+/// Width of the mark with its room [points].
+pub const WIDTH: f32 = 16.0;
+
+/// The mark beside an entry: a ring while untried, filled while it runs, a tick or a cross. `words` say the same.
+pub fn show(ui: &mut Ui, state: Option<State>, words: &str) {
+    let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, theme::ROW), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
     let colours = theme::colours(ui);
-    let ink = |colour| if on_accent { colours.on_accent } else { colour };
-    let at = pos2(entry.right() - 12.0, entry.center().y);
-    let painter = ui.painter();
+    let (at, painter) = (rect.center(), ui.painter());
     match state {
-        None => drop(painter.circle_stroke(at, 4.0, Stroke::new(1.0, ink(colours.weak)))),
-        Some(State::Running) => drop(painter.circle_filled(at, 4.0, ink(colours.accent))),
-        Some(State::Void) => drop(painter.circle_filled(at, 2.0, ink(colours.weak))),
+        None => drop(painter.circle_stroke(at, 4.0, Stroke::new(1.0, colours.weak))),
+        Some(State::Running) => drop(painter.circle_filled(at, 4.0, colours.accent)),
+        Some(State::Void) => drop(painter.circle_filled(at, 2.0, colours.weak)),
         Some(State::Passed) => {
-            let stroke = Stroke::new(2.0, ink(colours.good));
-            painter
-                .line(vec![at + egui::vec2(-4.5, 0.0), at + egui::vec2(-1.5, 3.5), at + egui::vec2(4.5, -4.0)], stroke);
+            let points = [vec2(-4.5, 0.0), vec2(-1.5, 3.5), vec2(4.5, -4.0)].map(|offset| at + offset);
+            painter.line(points.to_vec(), Stroke::new(2.0, colours.good));
         }
         Some(State::Failed) => {
-            let font = FontId::proportional(theme::BODY);
-            painter.text(at, Align2::CENTER_CENTER, "×", font, ink(colours.error));
+            let stroke = Stroke::new(2.0, colours.error);
+            painter.line_segment([at + vec2(-3.5, -3.5), at + vec2(3.5, 3.5)], stroke);
+            painter.line_segment([at + vec2(-3.5, 3.5), at + vec2(3.5, -3.5)], stroke);
         }
     }
+    response.on_hover_text(words);
 }
 
 /// Below the entry of the scene that is open: a line for each limit, and how the trial stands.

@@ -2,13 +2,16 @@
 //! error or a wanted budget; a click on a point loads its settings.
 
 use super::state::State;
-use super::theme;
+use super::{format, theme, widgets};
 use crate::app::laboratory::Stage;
 use crate::app::{Command, Frame, LabOrder, LabReport};
 use crate::lab::report::mark::{Shape, look};
 use crate::lab::{Family, Front, Point, Setting};
-use egui::{Color32, DragValue, Id, Label, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2b};
-use egui_plot::{GridMark, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotResponse, Points};
+use egui::{
+    Color32, DragValue, Id, Label, Painter, Pos2, RichText, Role, ScrollArea, Sense, Stroke, TextEdit, Ui, WidgetInfo,
+};
+use egui_plot::{GridMark, Line, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points};
+use std::ops::RangeInclusive;
 
 /// Width of the column beside the diagram [points].
 const COLUMN: f32 = 300.0;
@@ -43,9 +46,9 @@ pub fn show(ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Co
         ui.allocate_ui_with_layout(egui::vec2(COLUMN, height), egui::Layout::top_down(egui::Align::Min), |ui| {
             ui.set_width(COLUMN);
             let area = ScrollArea::vertical().id_salt("lab column").auto_shrink(false);
-            super::widgets::scroll(ui, area, |ui| {
+            widgets::scroll(ui, area, |ui| {
                 controls(ui, frame, &report, commands);
-                advice(ui, &report, &front, &mut state.lab);
+                advice(ui, frame, &report, &front, &mut state.lab, commands);
                 export(ui, &report, &mut state.lab, commands);
             });
         });
@@ -92,7 +95,10 @@ fn controls(ui: &mut Ui, frame: &Frame, report: &LabReport, commands: &mut Vec<C
     if let Some(progress) = progress {
         let part = progress.done as f32 / progress.total.max(1) as f32;
         let text = format!("{} of {}, {:.0} s left", progress.done, progress.total, progress.seconds_left.ceil());
+        let colours = theme::colours(ui);
+        let text = RichText::new(text).color(colours.strong);
         let bar = egui::ProgressBar::new(part).desired_width(COLUMN - 4.0 * theme::GRID).text(text);
+        let bar = bar.fill(colours.accent.gamma_multiply(0.6)).corner_radius(theme::GRID);
         ui.add(bar).on_hover_text("Settings tried so far, of all, and an estimate of the time that the rest takes.");
     }
     note(ui, &stage_text(report));
@@ -109,7 +115,7 @@ fn stage_text(report: &LabReport) -> String {
             return "Error: RMS distance from the truth in parts of the length. Cost: CPU time.".into();
         }
         (_, "") => String::new(),
-        (_, reference) => format!(" Against: {reference}, over {} s.", super::format::plain(report.seconds, 2)),
+        (_, reference) => format!(" Against: {reference}, over {} s.", format::plain(report.seconds, 2)),
     };
     match &report.stage {
         Stage::Idle => format!("Stopped before there was a reference.{against}"),
@@ -121,34 +127,68 @@ fn stage_text(report: &LabReport) -> String {
     }
 }
 
-/// Two fields, and what to use for each.
-fn advice(ui: &mut Ui, report: &LabReport, front: &Front, wanted: &mut Wanted) {
+/// Two fields, what to use for each, and a button that does.
+fn advice(
+    ui: &mut Ui,
+    frame: &Frame,
+    report: &LabReport,
+    front: &Front,
+    wanted: &mut Wanted,
+    commands: &mut Vec<Command>,
+) {
     if report.points.is_empty() {
         return;
     }
-    let row =
-        |ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>, unit: &str, help: &str| {
-            ui.horizontal(|ui| {
-                let label = ui.label(RichText::new(name).color(theme::colours(ui).weak));
-                let speed = 0.02 * *value;
-                let scientific = unit.is_empty();
-                let drag = DragValue::new(value).range(range).speed(speed).suffix(unit).update_while_editing(false);
-                let drag = drag.custom_formatter(move |value, _| {
-                    if scientific { super::format::minus(format!("{value:.0e}")) } else { super::format::digits(value) }
-                });
-                ui.add(drag).labelled_by(label.id).on_hover_text(help);
-                label.on_hover_text(help);
-            });
-        };
     let help = "Wanted error, in parts of the scene's length. Drag, or click to type.";
-    row(ui, "Wanted error", &mut wanted.error, 1e-16..=1.0, "", help);
+    let error = Field { name: "Wanted error", unit: "", range: 1e-16..=1.0, help };
+    let use_it = error.show(ui, &mut wanted.error);
     note(ui, &front.advice_for_error(wanted.error));
+    let best = front.cheapest_for(wanted.error).filter(|_| use_it);
+    commands.extend(best.map(|point| load(point, frame)));
     let help =
         "Wanted budget, in microseconds of CPU time per simulated second: 1e6 is a whole core. Drag, or click to type.";
-    row(ui, "Wanted budget", &mut wanted.budget, 0.1..=1e7, " µs/s", help);
+    let budget = Field { name: "Wanted budget", unit: " µs/s", range: 0.1..=1e7, help };
+    let use_it = budget.show(ui, &mut wanted.budget);
     note(ui, &front.advice_for_budget(wanted.budget));
+    let best = front.best_within(wanted.budget).filter(|_| use_it);
+    commands.extend(best.map(|point| load(point, frame)));
     if let Some(gain) = front.gain(&report.points, Setting::BASELINE) {
         note(ui, &gain.sentence());
+    }
+}
+
+/// The command that steps the simulation as a point was.
+fn load(point: &Point, frame: &Frame) -> Command {
+    Command::Method(point.setting().method(frame.method))
+}
+
+/// A value that advice is asked for.
+struct Field {
+    name: &'static str,
+    unit: &'static str,
+    range: RangeInclusive<f64>,
+    help: &'static str,
+}
+
+impl Field {
+    /// The row; whether the advice is to be followed.
+    fn show(self, ui: &mut Ui, value: &mut f64) -> bool {
+        let Field { name, unit, range, help } = self;
+        let row = ui.horizontal(|ui| {
+            let label = ui.label(RichText::new(name).color(theme::colours(ui).weak));
+            let speed = 0.02 * *value;
+            let drag = DragValue::new(value).range(range).speed(speed).suffix(unit).update_while_editing(false);
+            let drag = drag.custom_formatter(move |value, _| {
+                if unit.is_empty() { format::minus(format!("{value:.0e}")) } else { format::digits(value) }
+            });
+            ui.add(drag).labelled_by(label.id).on_hover_text(help);
+            label.on_hover_text(help);
+            let button = ui.button("Use").on_hover_text("Steps the simulation with the settings named below.");
+            let clicked = button.clicked();
+            button.accessible_name(format!("Use for the {}", name.to_lowercase()));
+            clicked
+        });
+        row.inner
     }
 }
 
@@ -183,27 +223,98 @@ fn place(point: &Point) -> Option<[f64; 2]> {
 }
 
 fn diagram(ui: &mut Ui, frame: &Frame, report: &LabReport, front: &Front, commands: &mut Vec<Command>) {
-    let colours = theme::colours(ui);
     let places: Vec<(usize, [f64; 2])> =
         report.points.iter().enumerate().filter_map(|(index, point)| Some((index, place(point)?))).collect();
-    let response = plot(&colours).show(ui, |plot| {
-        plot.set_auto_bounds(Vec2b::TRUE);
-        let line: Vec<[f64; 2]> = front.points().iter().filter_map(place).collect();
-        plot.line(Line::new("Front", PlotPoints::new(line)).color(colours.strong).width(2.0).allow_hover(false));
-        for family in Family::ALL {
-            let own = |on_front: bool| -> Vec<[f64; 2]> {
-                let of_family = |point: &&Point| point.method == family && front.contains(point) == on_front;
-                report.points.iter().filter(of_family).filter_map(place).collect()
-            };
-            let (shape, filled, colour) = look(family);
-            for (on_front, radius) in [(false, 3.5), (true, 5.5)] {
-                let colour = family_colour(&colours, colour).gamma_multiply(if on_front { 1.0 } else { 0.65 });
-                let marks = Points::new(family.name(), PlotPoints::new(own(on_front)));
-                plot.points(marks.shape(marker(shape)).filled(filled).color(colour).radius(radius).allow_hover(false));
+    ui.vertical(|ui| {
+        legend(ui, report);
+        let colours = theme::colours(ui);
+        let bounds = [0, 1].map(|axis| whole_decades(places.iter().map(|(_, place)| place[axis])));
+        let response = plot(&colours).show(ui, |plot| {
+            let [x, y] = bounds;
+            plot.set_plot_bounds(PlotBounds::from_min_max([x[0], y[0]], [x[1], y[1]]));
+            let line: Vec<[f64; 2]> = front.points().iter().filter_map(place).collect();
+            plot.line(Line::new("Front", PlotPoints::new(line)).color(colours.strong).width(2.0).allow_hover(false));
+            for family in Family::ALL {
+                marks(plot, &colours, report, front, family);
             }
+        });
+        hover(ui, frame, report, &places, &response, commands);
+    });
+}
+
+/// The points of a family, those on the front larger and brighter.
+fn marks<'a>(plot: &mut PlotUi<'a>, colours: &theme::Colours, report: &LabReport, front: &Front, family: Family) {
+    let (shape, filled, colour) = look(family);
+    for (on_front, radius, brightness) in [(false, 3.5, 0.65), (true, 5.5, 1.0)] {
+        let wanted = |point: &&Point| point.method == family && front.contains(point) == on_front;
+        let own: Vec<[f64; 2]> = report.points.iter().filter(wanted).filter_map(place).collect();
+        let colour = family_colour(colours, colour).gamma_multiply(brightness);
+        let marks = Points::new(family.name(), PlotPoints::new(own)).shape(marker(shape)).filled(filled);
+        plot.points(marks.color(colour).radius(radius).allow_hover(false));
+    }
+}
+
+/// Whole powers of ten around values, with a little room: from and to.
+fn whole_decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    if !(low <= high) {
+        return [0.0, 1.0];
+    }
+    [low.floor() - 0.1, high.ceil().max(low.floor() + 1.0) + 0.1]
+}
+
+/// The families that have a point, with their marks, in a row that wraps.
+fn legend(ui: &mut Ui, report: &LabReport) {
+    let colours = theme::colours(ui);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = egui::vec2(3.0 * theme::GRID, 0.0);
+        for family in Family::ALL.into_iter().filter(|family| report.points.iter().any(|point| point.method == *family))
+        {
+            let (shape, filled, colour) = look(family);
+            let font = egui::FontId::proportional(theme::SMALL);
+            let words = ui.painter().layout_no_wrap(family.name(), font, colours.weak);
+            let (rect, response) = ui.allocate_exact_size(egui::vec2(14.0 + words.size().x, 16.0), Sense::hover());
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, family.name()));
+            paint_mark(
+                ui.painter(),
+                rect.left_center() + egui::vec2(5.0, 0.0),
+                shape,
+                filled,
+                family_colour(&colours, colour),
+            );
+            let at = egui::pos2(rect.left() + 14.0, rect.center().y - words.size().y / 2.0);
+            ui.painter().galley(at, words, colours.weak);
         }
     });
-    hover(ui, frame, report, &places, &response, commands);
+}
+
+fn paint_mark(painter: &Painter, at: Pos2, shape: Shape, filled: bool, colour: Color32) {
+    const R: f32 = 4.0;
+    let corners = |offsets: &[(f32, f32)]| offsets.iter().map(|(x, y)| at + R * egui::vec2(*x, *y)).collect::<Vec<_>>();
+    let stroke = Stroke::new(1.5, colour);
+    let polygon: &[(f32, f32)] = match shape {
+        Shape::Circle => {
+            let fill = if filled { colour } else { Color32::TRANSPARENT };
+            painter.circle(at, R, fill, stroke);
+            return;
+        }
+        Shape::Plus | Shape::Cross => {
+            let (a, b) = if shape == Shape::Plus {
+                (egui::vec2(R, 0.0), egui::vec2(0.0, R))
+            } else {
+                (egui::vec2(R, R), egui::vec2(R, -R))
+            };
+            painter.line_segment([at - a, at + a], stroke);
+            painter.line_segment([at - b, at + b], stroke);
+            return;
+        }
+        Shape::Square => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+        Shape::Diamond => &[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)],
+        Shape::Up => &[(0.0, -1.1), (1.1, 0.9), (-1.1, 0.9)],
+        Shape::Down => &[(0.0, 1.1), (1.1, -0.9), (-1.1, -0.9)],
+    };
+    let fill = if filled { colour } else { Color32::TRANSPARENT };
+    painter.add(egui::Shape::convex_polygon(corners(polygon), fill, stroke));
 }
 
 /// Explains the point under the pointer; a click loads its settings.
@@ -226,7 +337,7 @@ fn hover(
     ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
     response.response.clone().on_hover_text_at_pointer(explain(point));
     if response.response.clicked() {
-        commands.push(Command::Method(point.setting().method(frame.method)));
+        commands.push(load(point, frame));
     }
 }
 
@@ -238,8 +349,8 @@ pub fn explain(point: &Point) -> String {
          {:.1e}\nClick to step the simulation so.",
         point.setting().label(),
         point.error_kind,
-        super::format::digits(point.cpu_us_per_second),
-        super::format::si(point.violation_max, "m"),
+        format::digits(point.cpu_us_per_second),
+        format::si(point.violation_max, "m"),
         point.energy_drift,
     )
 }
@@ -263,7 +374,6 @@ fn plot(colours: &theme::Colours) -> Plot<'static> {
         .y_axis_formatter(move |mark, _| power(mark))
         .x_axis_label("Cost [µs/s]")
         .y_axis_label("Error")
-        .legend(egui_plot::Legend::default().text_style(egui::TextStyle::Small))
         .sense(Sense::click())
 }
 
@@ -293,5 +403,5 @@ fn family_colour(colours: &theme::Colours, index: usize) -> Color32 {
 }
 
 fn note(ui: &mut Ui, text: &str) {
-    super::widgets::note(ui, text);
+    widgets::note(ui, text);
 }

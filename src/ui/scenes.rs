@@ -97,15 +97,19 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
 
 fn entry(ui: &mut Ui, scene: &Shipped, here: bool, verdict: Option<&Verdict>) -> egui::Response {
     let button = egui::Button::selectable(here, scene.title).truncate();
-    let pass = scene.pass();
-    // Room for the badge at the right end.
-    let button = if pass.is_some() { button.right_text("      ") } else { button };
-    let response = ui.add_sized([ui.available_width(), theme::ROW], LeftAligned(button));
     let opens = format!("Opens \"{}\". [ and ] go through the list.", scene.name);
-    let Some(pass) = pass else { return response.on_hover_text(opens) };
-    badge::paint(ui, response.rect, verdict.map(|verdict| verdict.state), here);
-    let pass = verdict.map_or_else(|| badge::wanted(&pass), badge::summary);
-    response.on_hover_text(format!("{opens}\n{pass}"))
+    let Some(pass) = scene.pass() else {
+        let response = ui.add_sized([ui.available_width(), theme::ROW], LeftAligned(button));
+        return response.on_hover_text(opens);
+    };
+    let words = verdict.map_or_else(|| badge::wanted(pass), badge::summary);
+    let row = ui.horizontal(|ui| {
+        let width = ui.available_width() - badge::WIDTH - theme::GRID;
+        let response = ui.add_sized([width, theme::ROW], LeftAligned(button));
+        badge::show(ui, verdict.map(|verdict| verdict.state), &words);
+        response
+    });
+    row.inner.on_hover_text(format!("{opens}\n{words}"))
 }
 
 /// `add_sized` centres; a list reads better from the left.
