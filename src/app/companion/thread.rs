@@ -34,7 +34,7 @@ const INTERVAL: Duration = Duration::from_micros(8_333);
 
 /// What runs in the thread.
 enum Runner {
-    Reference(Reference),
+    Reference(Box<Reference>),
     Rival(Box<Rival>),
 }
 
@@ -98,7 +98,7 @@ impl Thread {
                 self.guard(work, |work| {
                     work.runner = None;
                     work.runner = Some(match purpose {
-                        Purpose::Truth => Runner::Reference(Reference::new(beginning)?),
+                        Purpose::Truth => Runner::Reference(Box::new(Reference::new(beginning)?)),
                         Purpose::Rival(method) => Runner::Rival(Box::new(Rival::new(beginning, method)?)),
                     });
                     Ok(None)
