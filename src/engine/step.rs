@@ -118,6 +118,7 @@ impl Stepper {
     /// The substeps of all that is not carried by an island.
     fn substeps(&mut self, world: &World, report: &mut StepReport, laps: &mut Laps) {
         self.load(world);
+        self.islands.forget_pulls(world, &mut self.force);
         report.substeps = self.method.substeps;
         for substep in 0..self.method.substeps {
             if self.plan.spin {
@@ -317,6 +318,7 @@ impl Stepper {
         if !self.plan.rest {
             world.contacts.clear();
         }
+        world.constraints.carried.fill(false);
         self.islands.store(world, &self.plan, self.method.step_seconds());
         world.advance_clock(self.method.hz);
     }

@@ -378,6 +378,7 @@ impl World {
         c.at_a.push(at_a);
         c.at_b.push(at_b);
         c.force.push(DVec2::ZERO);
+        c.carried.push(false);
         Ok(id)
     }
 
@@ -490,6 +491,7 @@ impl World {
         retain(&mut c.at_a, keep);
         retain(&mut c.at_b, keep);
         retain(&mut c.force, keep);
+        retain(&mut c.carried, keep);
     }
 
     /// Whether body `index` is pushed by anything.

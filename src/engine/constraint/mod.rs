@@ -134,6 +134,8 @@ pub struct Constraints {
     pub at_b: Vec<DVec2>,
     /// The multipliers that the last substep found [N]: for distances (λ, 0), for pins the force on `b`.
     pub force: Vec<DVec2>,
+    /// Carried whole with its island in the last step: `force` is then that of an instant, and no start for sweeps.
+    pub(crate) carried: Vec<bool>,
 }
 
 impl Constraints {

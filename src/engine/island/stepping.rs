@@ -18,6 +18,7 @@ use crate::engine::integrate::taylor::Taylor;
 use crate::engine::plan::{IslandPlan, Plan};
 use crate::engine::report::StepReport;
 use crate::engine::world::World;
+use glam::DVec2;
 
 /// The islands of a plan, and the scratch memory that they share.
 #[derive(Debug, Default)]
@@ -153,18 +154,31 @@ impl Islands {
         &self.given_up
     }
 
+    /// Clears the multipliers of islands that go through the substeps in this step and were carried whole in the last. Those of a
+    /// rigid chain at an instant may be a peak, which sweeps that start from it take many substeps to work off; meanwhile the chain
+    /// is pulled on, and gains energy.
+    pub fn forget_pulls(&self, world: &World, force: &mut [DVec2]) {
+        for index in self.given_up.iter().filter(|index| **index < self.islands.len()) {
+            let constraints = self.islands[*index].0.group.constraints.iter().map(|constraint| *constraint as usize);
+            constraints.filter(|c| world.constraints.carried[*c]).for_each(|c| force[c] = DVec2::ZERO);
+        }
+    }
+
     /// Writes the islands back, but for those given up; what turns freely turns on for `time` [s].
     pub fn store(&mut self, world: &mut World, plan: &Plan, time: f64) {
         if plan.few.is_some() {
             self.few.store(world);
         }
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
-        for (_, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
+        for (index, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
             if !world.bodies.rotors.omega.is_empty() {
                 turn_freely(system, world, time);
             }
             // After that, as it knows better of what does not turn freely.
             system.store(world);
+            for constraint in &self.islands[index].0.group.constraints {
+                world.constraints.carried[*constraint as usize] = true;
+            }
         }
     }
 }
