@@ -5,6 +5,8 @@ use crate::engine::{Integrator, Solver};
 
 /// Wanted accuracies of the dial and of the series.
 const TOLERANCES: [f64; 9] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-9, 1e-11, 1e-13];
+/// Those that are tried at a lower rate too.
+const SLOW: [f64; 3] = [1e-3, 1e-6, 1e-9];
 /// Substeps and iterations of the substep loop: few sweeps in many substeps and many in few.
 const LOOPS: [(u32, u32); 11] =
     [(1, 10), (4, 1), (4, 10), (16, 1), (1, 100), (4, 40), (16, 10), (64, 1), (64, 10), (16, 100), (256, 2)];
@@ -49,14 +51,16 @@ fn ladder(family: Family, with_other_rates: bool) -> Vec<Setting> {
         Family::Dial => {
             // Where something touches the substeps say how well.
             let finer = |substeps| Setting { substeps: Some(substeps), ..Setting::dial(1e-6) };
-            TOLERANCES.map(Setting::dial).into_iter().chain([16, 64].map(finer)).collect()
+            let slow = SLOW.into_iter().filter_map(|tolerance| other(30.0, Setting::dial(tolerance)));
+            slow.chain(TOLERANCES.map(Setting::dial)).chain([16, 64].map(finer)).collect()
         }
         Family::Direct(Integrator::Taylor) => {
-            TOLERANCES.into_iter().filter(|tolerance| *tolerance <= 1e-5).map(Setting::taylor).collect()
+            let slow = SLOW.into_iter().filter_map(|tolerance| other(30.0, Setting::taylor(tolerance)));
+            slow.chain(TOLERANCES.into_iter().map(Setting::taylor)).filter(|at| at.tolerance <= Some(1e-5)).collect()
         }
         Family::Direct(integrator) => {
-            let slow = other(30.0, Setting::direct(integrator, 1));
-            slow.into_iter().chain(SUBSTEPS.map(|substeps| Setting::direct(integrator, substeps))).collect()
+            let slow = [1, 2].into_iter().filter_map(|substeps| other(30.0, Setting::direct(integrator, substeps)));
+            slow.chain(SUBSTEPS.map(|substeps| Setting::direct(integrator, substeps))).collect()
         }
         Family::Substepped(integrator, solver) => {
             let with = |(substeps, iterations)| Setting::substepped(integrator, solver, substeps, iterations);

@@ -18,6 +18,9 @@ const CHANGES: [usize; 2] = [32, 8];
 const SWEEPS: u32 = 200;
 /// Most times a step that Gauss-Seidel is asked for: what needs more does not run in real time.
 const RESCUES: u32 = 4;
+/// Most cubes of the rows solved for in a step: some milliseconds. A heap of a hundred discs needs more than all else together, and does
+/// not run in real time.
+const MOST_WORK: u64 = 10_000_000;
 /// Part of the largest force that is rounding.
 const ROUNDING: f64 = 1e-13;
 /// Part of the right-hand side that may be left over where rows are redundant; more is a contradiction.
@@ -61,11 +64,17 @@ pub(super) struct Cone {
     right: Vec<f64>,
     found: Vec<f64>,
     qr: Qr,
-    /// Times that Gauss-Seidel was asked for, since it was last set to zero.
-    pub rescues: u32,
+    /// Times that Gauss-Seidel was asked for, and the cubes of the rows solved for, in this step.
+    rescues: u32,
+    work: u64,
 }
 
 impl Cone {
+    /// Begins a step.
+    pub fn forget_work(&mut self) {
+        (self.rescues, self.work) = (0, 0);
+    }
+
     /// Begins a problem: A of these contacts, everything acting and sticking, b = 0.
     pub fn begin(&mut self, touches: &[Touch], masses: &Masses) {
         let m = touches.len();
@@ -118,7 +127,7 @@ impl Cone {
         [self.lambda[2 * i] * self.scale[2 * i], self.lambda[2 * i + 1] * self.scale[2 * i + 1]]
     }
 
-    /// Finds the set and its solution; `false` if it cycles, also from the set that projected Gauss-Seidel comes near to.
+    /// Finds the set and its solution; `false` if it cycles, also from the set that projected Gauss-Seidel comes near to, or costs too much.
     pub fn solve(&mut self) -> bool {
         self.improve_set()
             || self.rescues < RESCUES && {
@@ -181,6 +190,10 @@ impl Cone {
             }
         }
         let k = self.unknown.len();
+        self.work += (k as u64).pow(3);
+        if self.work > MOST_WORK {
+            return false;
+        }
         self.lambda.fill(0.0);
         self.found.clear();
         self.found.resize(k, 0.0);

@@ -111,7 +111,7 @@ impl Few {
         self.events = 0;
         self.rolls = 0;
         self.collisions.bounces = 0;
-        self.cone.rescues = 0;
+        self.cone.forget_work();
         self.paths.clear();
         for (place, body) in self.surfaces.body.iter().enumerate() {
             let spin = bodies.spin(*body as usize).unwrap_or_default();

@@ -21,9 +21,9 @@ impl Largest {
     pub fn take(&mut self, values: &[f64]) {
         let (fours, rest) = values.as_chunks::<4>();
         for four in fours {
-            for k in 0..4 {
-                self.most[k] = if four[k] > self.most[k] { four[k] } else { self.most[k] };
-                self.sum[k] += four[k];
+            for (k, value) in four.iter().enumerate() {
+                self.most[k] = if *value > self.most[k] { *value } else { self.most[k] };
+                self.sum[k] += value;
             }
         }
         for value in rest {
