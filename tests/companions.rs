@@ -194,7 +194,8 @@ fn where_neighbouring_motions_part_there_is_no_reference_any_more() {
     println!("billiards: no reference after {after:.2} s");
     assert!(after > 0.1 && after < 30.0);
     assert!(report.gap.is_none() && report.offsets.bodies.is_empty(), "a ghost of nothing must not be drawn");
-    assert!(PARTED < VISIBLE, "the truth is given up before the simulation would seem to leave it by itself");
+    // The truth is given up before the simulation would seem to leave it by itself.
+    const { assert!(PARTED < VISIBLE) };
 }
 
 #[test]

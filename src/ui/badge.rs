@@ -4,7 +4,7 @@ use super::format::{digits, minus, round_si, si};
 use super::{theme, widgets};
 use crate::scene::Limit;
 use crate::trial::{Line, State, Verdict};
-use egui::{Role, Sense, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Pos2, Stroke, Ui, vec2};
 
 /// "joint gap < 1 mm".
 pub fn limit_text(limit: &Limit) -> String {
@@ -66,12 +66,10 @@ pub fn wanted(pass: &crate::scene::Pass) -> String {
 /// Width of the mark with its room [points].
 pub const WIDTH: f32 = 16.0;
 
-/// The mark beside an entry: a ring while untried, filled while it runs, a tick or a cross. `words` say the same.
-pub fn show(ui: &mut Ui, state: Option<State>, words: &str) {
-    let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, theme::ROW), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
-    let colours = theme::colours(ui);
-    let (at, painter) = (rect.center(), ui.painter());
+/// Paints the mark beside an entry: a ring while untried, filled while it runs, a tick or a cross. The entry's tooltip says the
+/// same in words.
+pub fn paint(ui: &Ui, at: Pos2, state: Option<State>) {
+    let (colours, painter) = (theme::colours(ui), ui.painter());
     match state {
         None => drop(painter.circle_stroke(at, 4.0, Stroke::new(1.0, colours.weak))),
         Some(State::Running) => drop(painter.circle_filled(at, 4.0, colours.accent)),
@@ -86,7 +84,6 @@ pub fn show(ui: &mut Ui, state: Option<State>, words: &str) {
             painter.line_segment([at + vec2(-3.5, 3.5), at + vec2(3.5, -3.5)], stroke);
         }
     }
-    response.on_hover_text(words);
 }
 
 /// Below the entry of the scene that is open: a line for each limit, and how the trial stands.

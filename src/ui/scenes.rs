@@ -103,13 +103,11 @@ fn entry(ui: &mut Ui, scene: &Shipped, here: bool, verdict: Option<&Verdict>) ->
         return response.on_hover_text(opens);
     };
     let words = verdict.map_or_else(|| badge::wanted(pass), badge::summary);
-    let row = ui.horizontal(|ui| {
-        let width = ui.available_width() - badge::WIDTH - theme::GRID;
-        let response = ui.add_sized([width, theme::ROW], LeftAligned(button));
-        badge::show(ui, verdict.map(|verdict| verdict.state), &words);
-        response
-    });
-    row.inner.on_hover_text(format!("{opens}\n{words}"))
+    let width = ui.available_width() - badge::WIDTH - theme::GRID;
+    let response = ui.add_sized([width, theme::ROW], LeftAligned(button));
+    let mark = response.rect.right_center() + egui::vec2(theme::GRID + badge::WIDTH / 2.0, 0.0);
+    badge::paint(ui, mark, verdict.map(|verdict| verdict.state));
+    response.on_hover_text(format!("{opens}\n{words}"))
 }
 
 /// `add_sized` centres; a list reads better from the left.

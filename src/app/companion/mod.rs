@@ -3,7 +3,7 @@
 //! The simulation tells what happens to its world, in order: an [`Input`] when a hand or a setting changes it, and where its
 //! bodies are after every step. A companion carries out the same inputs between the same steps and measures how far the
 //! simulation is from it. There are two:
-//! - the truth ([`Reference`](reference::Reference)): the exact motion where it is known and nothing was touched, otherwise the most
+//! - the truth: the exact motion where it is known and nothing was touched, otherwise the most
 //!   accurate method and one that is coarser, whose distance says how far the finer one can be believed;
 //! - the rival, "B": one world under the method that the user chose, shown beside the simulation.
 //!
