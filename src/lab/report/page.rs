@@ -125,6 +125,9 @@ fn diagrams(scenes: &[&ScenePoints]) -> String {
     scenes.iter().copied().map(one).collect()
 }
 
+/// Errors below this say no more than this.
+const ROUNDING: f64 = 1e-14;
+
 /// Where the dial is not the best choice, a row a scene.
 fn losses(scenes: &[ScenePoints]) -> String {
     let mut text =
@@ -136,7 +139,7 @@ fn losses(scenes: &[ScenePoints]) -> String {
         let front = Front::of(&others);
         let beaten = dial.iter().filter_map(|point| {
             let better = front.best_within(point.cpu_us_per_second)?;
-            Some((point, better, error(point) / error(better)))
+            Some((point, better, error(point).max(ROUNDING) / error(better).max(ROUNDING)))
         });
         let worst = beaten.max_by(|a, b| a.2.total_cmp(&b.2)).filter(|(.., factor)| *factor > 1.0);
         let most = match worst {
