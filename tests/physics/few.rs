@@ -188,7 +188,7 @@ impl Random {
 /// A box of discs and particles of all materials, thrown about.
 fn random_box(seed: u64) -> World {
     let mut r = Random(seed);
-    let mut world = if seed % 3 == 0 { weightless() } else { World::new() };
+    let mut world = if seed.is_multiple_of(3) { weightless() } else { World::new() };
     if seed % 4 == 1 {
         world.set_drag(r.between(0.0, 2.0)).unwrap();
     }
