@@ -14,14 +14,14 @@ counts=$(mktemp)
 trap 'rm -f "$counts"' EXIT
 
 # Instructions of the functions whose name matches, with all that they call.
-of() { callgrind_annotate --inclusive=yes --threshold=100 "$counts" | tr -d , | awk -v name="$1" '$0 ~ name { print $1; exit }'; }
+of() { callgrind_annotate --inclusive=yes --threshold=100 "$counts" | tr -d , | grep -v drop_in_place | awk -v name="$1" '!found && $0 ~ name { print $1; found = 1 }'; }
 
 printf '%-10s %14s %14s %14s %12s %s\n' accuracy step planning method bookkeeping "contacts and springs"
 for accuracy in "$@"; do
     valgrind --tool=callgrind --callgrind-out-file="$counts" \
         target/release/tautline run "$scene" --seconds 1.5 --accuracy "$accuracy" >/dev/null 2>&1
     step=$(of 'Stepper::step')
-    plan=$(of 'Stepper::plan')
+    plan=$(of 'Plan::derive')
     method=$(of 'integrate::.*::advance')
     others=$(of 'collide::|::pgs::|Springs::add|SpringSeries::add')
     awk -v accuracy="$accuracy" -v step="$step" -v plan="${plan:-0}" -v method="${method:-0}" -v others="${others:-0}" 'BEGIN {
