@@ -186,9 +186,11 @@ fn restart_and_open_can_be_undone() {
     add(&mut world, v(0.0, 0.0));
     let session = start(world);
     wait_for(&session, "a few steps", |f| f.world.tick() > 3);
+    session.send(Command::Method(Method { automatic: true, accuracy: 1e-9, ..Method::default() }));
     let before = pause(&session);
     session.send(Command::Restart);
     let fresh = wait_for(&session, "the restart", |f| f.world.tick() == 0);
+    assert!(fresh.method.automatic && fresh.method.accuracy == 1e-9, "the solver's settings are kept");
     assert!(fresh.scene.opened > before.scene.opened, "the window must know that the scene was started anew");
     session.send(Command::Undo);
     assert_eq!(wait_for(&session, "the undo", |f| f.world.tick() > 0).world, before.world);

@@ -743,7 +743,7 @@ fn the_distance_from_the_truth_carries_its_error_and_so_does_a_selected_body() {
     let frame = Arc::make_mut(&mut harness.state_mut().frame);
     frame.companions.truth = Some(Companion::fixed(chaotic, []));
     harness.run();
-    assert!(harness.query_all_by_label_contains("none: chaotic after 2.10 s").next().is_some());
+    assert!(harness.query_all_by_label_contains("unknown: chaotic after 2.10 s").next().is_some());
 }
 
 #[test]

@@ -10,7 +10,7 @@ pub enum Command {
     Run(bool),
     /// Takes one step (and pauses).
     StepOnce,
-    /// Back to the start of the scene; edits since then are given up (and can be undone).
+    /// Back to the start of the scene, with the solver's settings as they are; edits since then are given up (and can be undone).
     Restart,
     /// Wanted speed: simulated seconds a second, 0.01 … 10.
     Speed(f64),

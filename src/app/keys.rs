@@ -108,7 +108,12 @@ const fn entry(action: Action, shortcuts: &'static [Shortcut], name: &'static st
 pub const ENTRIES: &[Entry] = &[
     entry(Action::ToggleRun, &[key("Space"), key("P")], "Run or pause", "Lets time run, or stops it."),
     entry(Action::StepOnce, &[key("."), key("ArrowRight")], "Step", "Takes one step of the simulation and pauses."),
-    entry(Action::Restart, &[key("R")], "Restart", "Back to the start of the scene. Can be undone."),
+    entry(
+        Action::Restart,
+        &[key("R")],
+        "Restart",
+        "Back to the start of the scene, with the solver's settings as they are. Can be undone.",
+    ),
     entry(Action::Slower, &[key("-")], "Slower", "Halves the speed, down to a hundredth of real time."),
     entry(Action::Faster, &[key("="), key("+")], "Faster", "Doubles the speed, up to ten times real time."),
     entry(Action::PreviousScene, &[key("[")], "Previous scene", "Opens the scene before this one in the list."),

@@ -218,7 +218,11 @@ impl Simulation {
                 self.fault = None;
                 self.take_step();
             }
-            Command::Restart => self.open((*self.start).clone(), "Restart"),
+            Command::Restart => {
+                // How to step was chosen for this scene, perhaps to compare it over the same motion.
+                let setup = Setup { method: *self.stepper.method(), ..(*self.start).clone() };
+                self.open(setup, "Restart");
+            }
             Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
             Command::Speed(speed) => return Err(format!("speed is {speed}, but must be between 0.01 and 10")),
             Command::Open(name) => {

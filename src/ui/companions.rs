@@ -45,7 +45,7 @@ pub fn status(frame: &Frame, companion: &Companion, colours: &theme::Colours) ->
     let (text, colour) = match (&report.standing, &report.gap) {
         (Standing::Waiting, _) => ("…".into(), colours.weak),
         (Standing::Parted { after, chaotic }, _) => {
-            (format!("none: {} after {after:.2} s", why_parted(*chaotic)), colours.warning)
+            (format!("unknown: {} after {after:.2} s", why_parted(*chaotic)), colours.warning)
         }
         (Standing::Lost(_), _) => ("given up".into(), colours.warning),
         (_, Some(gap)) => (gap_text(gap, report.length) + &late, colours.text),

@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, frame: &Frame, selection: &[Id]) {
             item(ui, "Contacts", count(frame.measures.contacts), colours.text, "Contacts that touch or carry a force.");
             step_time(ui, frame);
             let violation = si(frame.measures.violation_max, "m");
-            item(ui, "Error", violation, colours.text, "Worst violation of a rod, a taut rope or a pin [m].");
+            item(ui, "Violation", violation, colours.text, "Worst violation of a rod, a taut rope or a pin [m].");
         });
     });
 }

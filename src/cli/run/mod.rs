@@ -23,7 +23,8 @@ use watch::{Refined, Watch};
 /// Columns of --measures: time; kinetic, potential (0 at the origin) and elastic energy [J]; momentum_x, momentum_y [kg·m/s];
 /// angular_momentum about the origin [kg·m²/s]; violation_max and penetration_max, the worst of a rod, rope or pin and the
 /// deepest overlap [m]; contacts; step_us, the mean time of a step since the row before [µs]; local_error, the largest estimate
-/// of a step's error since then, in parts of an island's size; violation_rms [m]; energy, the sum [J]; energy_drift, the energy
+/// of a step's error since then, in parts of an island's size, empty where an accuracy was wanted and a step went through the
+/// substeps; violation_rms [m]; energy, the sum [J]; energy_drift, the energy
 /// less that at the start, in parts of the largest kinetic energy plus the spread of the other energies so far;
 /// error_rms and error_max, the distance from the exact motion over all bodies [m], and error_rms_percent and error_max_percent,
 /// the same in percent of the length that the scene names; order, with --order.
@@ -115,6 +116,21 @@ impl RunArguments {
         }
     }
 
+    /// An option that changes nothing beside the others, if there is one.
+    fn without_effect(&self, method: &Method) -> Option<String> {
+        let integrator = method.integrator.name();
+        if self.accuracy.is_some() && !method.automatic && method.integrator != Integrator::Taylor {
+            return Some(format!(
+                "--accuracy has no effect beside --integrator: {integrator} takes the steps that it is given"
+            ));
+        }
+        (self.linear.is_some() && !method.automatic && !method.integrator.is_direct()).then(|| {
+            format!(
+                "--linear has no effect: {integrator} carries no island whole; give --accuracy, or another --integrator"
+            )
+        })
+    }
+
     /// Whether an option says how the integration is to be done.
     fn by_hand(&self) -> bool {
         self.integrator.is_some() || self.solver.is_some()
@@ -149,6 +165,9 @@ pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
     let setup = scene::open(&arguments.scene)?;
     arguments.check_outputs()?;
     let method = arguments.method(setup.method);
+    if let Some(note) = arguments.without_effect(&method) {
+        writeln!(std::io::stderr(), "note: {note}")?;
+    }
     let sampling = Sampling { seconds: arguments.seconds, every: arguments.every.unwrap_or(method.step_seconds()) };
     let exact = setup.known_motion();
     let refined =
@@ -167,7 +186,8 @@ pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
     if let Some(divergence) = finish.divergence {
         anyhow::bail!("after {} s: {divergence}", finish.world.time());
     }
-    let (steps, time, found) = (finish.steps, finish.world.time(), watch.summary());
+    let (steps, time) = (finish.steps, finish.world.time());
+    let found = watch.summary() + &finish.lapses.summary(steps);
     arguments.says(&format!("{}: {steps} steps, {time:.3} s simulated in {spent:.3} s{found}", arguments.scene))?;
     if arguments.hash {
         arguments.says(&format!("{:016x}", finish.world.hash()))?;

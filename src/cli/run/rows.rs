@@ -42,7 +42,11 @@ impl Rows<'_> {
             write!(out, "{time:?},{:?},{:?},{:?},", m.kinetic, m.potential, m.elastic)?;
             write!(out, "{:?},{:?},{:?},", momentum.x, momentum.y, m.angular_momentum)?;
             let Since { step_us, local_error } = since;
-            write!(out, "{:?},{:?},{contacts},{step_us:?},{local_error:?},", m.violation_max, m.penetration_max)?;
+            write!(out, "{:?},{:?},{contacts},{step_us:?},", m.violation_max, m.penetration_max)?;
+            if local_error.is_finite() {
+                write!(out, "{local_error:?}")?;
+            }
+            write!(out, ",")?;
             write!(out, "{:?},{:?},{:?}", m.violation_rms, m.total_energy(), seen.energy_drift)?;
             let (rms, max) = (seen.error.map(|error| error.rms), seen.error.map(|error| error.max));
             let percent = |error: Option<f64>| error.map(|error| 100.0 * error / seen.length);

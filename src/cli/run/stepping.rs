@@ -28,6 +28,38 @@ pub(super) struct Finish {
     pub steps: u64,
     /// Set if the run ended early.
     pub divergence: Option<Divergence>,
+    /// Where an accuracy was wanted and not kept.
+    pub lapses: Lapses,
+}
+
+/// Steps under a wanted accuracy in which something went through the substeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Lapses {
+    steps: u64,
+    /// Those in which something was near to an island, and in which an island could not be carried.
+    near: u64,
+    lost: u64,
+}
+
+impl Lapses {
+    fn add(&mut self, report: &StepReport) {
+        self.steps += 1;
+        self.near += u64::from(report.near > 0);
+        self.lost += u64::from(report.given_up > 0);
+    }
+
+    /// For the summary of a run of so many steps: nothing if there are none.
+    pub fn summary(&self, of: u64) -> String {
+        let Lapses { steps, near, lost } = *self;
+        let why = match (near, lost) {
+            _ if steps == 0 => return String::new(),
+            (0, 0) => "bodies can touch".to_owned(),
+            (_, 0) => "something was near".to_owned(),
+            (0, _) => "they could not be carried to it".to_owned(),
+            _ => format!("something was near in {near}, {lost} could not be carried to it"),
+        };
+        format!("; accuracy not kept in {steps} of {of} steps, which went through the substeps: {why}")
+    }
 }
 
 /// Steps `world` for `sampling.seconds` and writes rows on the way. Stops early, rows flushed by the caller, on divergence.
@@ -46,12 +78,17 @@ pub(super) fn run(
     rows.write(&world, &watch.look(&world), Since::default())?;
     let mut sample = 1;
     let mut since_row = Sums::default();
+    let mut lapses = Lapses::default();
     for step in 1..=last {
         let report = stepper.step(&mut world);
         if let Some(divergence) = report.divergence {
-            return Ok(Finish { world, steps: step - 1, divergence: Some(divergence) });
+            return Ok(Finish { world, steps: step - 1, divergence: Some(divergence), lapses });
         }
-        since_row.add(&report);
+        let lapsed = method.automatic && report.substeps > 0;
+        if lapsed {
+            lapses.add(&report);
+        }
+        since_row.add(&report, lapsed);
         watch.step();
         let seen = watch.look(&world);
         if step >= sampling.step_of(sample, method.hz) {
@@ -61,7 +98,7 @@ pub(super) fn run(
             }
         }
     }
-    Ok(Finish { world, steps: last, divergence: None })
+    Ok(Finish { world, steps: last, divergence: None, lapses })
 }
 
 /// What the steps since the row before tell.
@@ -69,7 +106,7 @@ pub(super) fn run(
 pub(super) struct Since {
     /// Mean time of a step [µs].
     pub step_us: f64,
-    /// Largest estimate of a step's local error, in parts of an island's size.
+    /// Largest estimate of a step's local error, in parts of an island's size; not finite where one had none.
     pub local_error: f64,
 }
 
@@ -81,10 +118,11 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, report: &StepReport) {
+    /// Takes a step in; one that `lapsed` has no estimate.
+    fn add(&mut self, report: &StepReport, lapsed: bool) {
         self.step_us += report.step_us;
         self.steps += 1.0;
-        self.local_error = self.local_error.max(report.local_error);
+        self.local_error = self.local_error.max(if lapsed { f64::INFINITY } else { report.local_error });
     }
 
     fn take(&mut self) -> Since {
