@@ -509,6 +509,25 @@ fn the_drag_tool_grips_a_body_and_draws_a_selection_box_on_empty_ground() {
 }
 
 #[test]
+fn a_slash_cuts_what_swings_away_before_it_is_let_go() {
+    let mut world = World::new();
+    let (a, b) = (add(&mut world, v(0.0, 1.0)), add(&mut world, v(0.0, -1.0)));
+    world.add_constraint(&Constraint::between(Kind::Rod { length: 2.0 }, a, b)).unwrap();
+    let mut hand = Hand::with(Tool::Cut);
+    assert!(hand.event(&world, Phase::Press(Button::Left), v(-1.0, 0.0)).is_empty());
+    assert!(matches!(hand.event(&world, Phase::Move, v(-0.5, 0.0))[..], [Command::Edit(Edit::Cut(..))]));
+    let [Command::Edit(Edit::Cut(from, to))] = hand.event(&world, Phase::Move, v(0.5, 0.0))[..] else {
+        panic!("a piece of the slash");
+    };
+    assert!(from.distance(v(-0.5, 0.0)) < 1e-9 && to.distance(v(0.5, 0.0)) < 1e-9, "{from} {to}");
+    assert_eq!(change(&mut world, Edit::Cut(from, to)).len(), 1, "the piece has met the rod");
+    let [Command::Edit(Edit::Cut(from, to))] = hand.event(&world, Phase::Release(Button::Left), v(1.0, 0.0))[..] else {
+        panic!("the whole slash, as it was drawn");
+    };
+    assert!(from.distance(v(-1.0, 0.0)) < 1e-9 && to.distance(v(1.0, 0.0)) < 1e-9, "{from} {to}");
+}
+
+#[test]
 fn giving_up_a_hold_lets_go() {
     let mut world = World::new();
     add(&mut world, v(0.0, 0.0));

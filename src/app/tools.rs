@@ -104,8 +104,10 @@ enum Gesture {
     Box {
         from: DVec2,
     },
+    /// `cut` is how far it has cut already: what moves meanwhile is cut where the pointer meets it.
     Slash {
         from: DVec2,
+        cut: DVec2,
     },
     Join {
         from: Anchor,
@@ -228,7 +230,7 @@ impl Tools {
         match (self.gesture, self.tool) {
             (Gesture::Grip { .. }, _) => Feedback::Grip,
             (Gesture::Box { from }, _) => Feedback::SelectionBox(from.min(to), from.max(to)),
-            (Gesture::Slash { from }, _) => Feedback::Slash(from, to),
+            (Gesture::Slash { from, .. }, _) => Feedback::Slash(from, to),
             (Gesture::Join { start, .. }, Tool::Join(kind)) => Feedback::Join { kind, from: start, to },
             (Gesture::Wall { from }, _) => Feedback::Wall(from, to),
             (Gesture::None, Tool::Spawn(kind)) => Feedback::Ghost { kind, at: to, size: spawn_size(camera) },
@@ -272,7 +274,7 @@ impl Tools {
                 None => self.gesture = Gesture::Box { from: free },
             },
             Tool::Select => self.gesture = Gesture::Box { from: free },
-            Tool::Cut => self.gesture = Gesture::Slash { from: free },
+            Tool::Cut => self.gesture = Gesture::Slash { from: free, cut: free },
             Tool::Spawn(kind) => return vec![Command::Edit(Edit::Spawn { kind, at, size: spawn_size(camera) })],
             Tool::Join(_) => {
                 let (from, start) = anchor(event, world, camera);
@@ -290,6 +292,10 @@ impl Tools {
             return Vec::new();
         }
         self.track(event, world, camera);
+        if let Gesture::Slash { cut, .. } = &mut self.gesture {
+            let from = std::mem::replace(cut, camera.to_world(event.canvas));
+            return vec![Command::Edit(Edit::Cut(from, *cut))];
+        }
         if let Gesture::Grip { pressed, moved, .. } = &mut self.gesture {
             *moved |= pressed.distance(event.canvas) > CLICK_REACH;
             return vec![Command::MoveGrip(camera.to_world(event.canvas))];
@@ -319,7 +325,7 @@ impl Tools {
                 self.choose(found, event.modifiers);
                 Vec::new()
             }
-            (Gesture::Slash { from }, _) => vec![Command::Edit(Edit::Cut(from, to))],
+            (Gesture::Slash { from, .. }, _) => vec![Command::Edit(Edit::Cut(from, to))],
             (Gesture::Join { from, start }, Tool::Join(kind)) => {
                 let (end, to) = anchor(event, world, camera);
                 join(world, camera, kind, (from, start), (end, to)).map(Command::Edit).into_iter().collect()
