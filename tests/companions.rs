@@ -153,8 +153,9 @@ fn a_touched_run_is_followed_by_a_reference_from_the_same_start() {
     let Standing::Converged { to } = report.standing else { panic!("{:?}", report.standing) };
     let gap = report.gap.expect("compared");
     println!("a pendulum under another gravity: {:.1e} m off, converged to {to:.1e}", gap.rms);
-    // The reference began with the run, so it carries the run's error before the touch too; wanted were 1e-9 a second.
-    assert!(gap.rms < 1e-7 && to < 1e-7 && report.since == 0.0, "{report:?}");
+    // The reference began where it was asked for, in the first steps of the run, so it carries the run's error before the touch too;
+    // wanted were 1e-9 a second.
+    assert!(gap.rms < 1e-7 && to < 1e-7 && report.since < 0.2, "{report:?}");
     session.send(Command::Restart);
     let fresh = wait_for("the restart", || Some(session.frame()).filter(|frame| frame.world.tick() == 0));
     let report = truth_of(&fresh);
