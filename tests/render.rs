@@ -35,6 +35,7 @@ fn frame(world: World) -> Frame {
         running: false,
         speed: Speed { wanted: 1.0, achieved: 1.0 },
         fault: None,
+        note: None,
         saved: None,
         undo: None,
         redo: None,

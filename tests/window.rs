@@ -213,14 +213,9 @@ impl Sandbox<'_> {
         let path = folder.join("my scene.ron");
         // It may not have been saved before.
         let _ = std::fs::remove_file(&path);
-        self.wait("the file to be saved", |s| {
-            // The field takes the keyboard in the pass after the shortcut: on a slow machine the key comes too early.
-            s.key("ctrl+s");
-            std::thread::sleep(Duration::from_millis(500));
-            s.key("Return");
-            std::thread::sleep(Duration::from_millis(500));
-            path.exists()
-        });
+        self.key("ctrl+s");
+        self.key("Return");
+        self.wait("the file to be saved", |_| path.exists());
         tautline::scene::open(&path.display().to_string()).expect("what was saved can be read")
     }
 
@@ -291,6 +286,27 @@ fn a_user_drags_a_particle_changes_a_slider_and_the_scene_and_closes_the_window(
     let (status, printed) = sandbox.close();
     assert_eq!(status.code(), Some(0), "{printed}");
     println!("{printed}");
+}
+
+#[test]
+fn what_is_typed_at_once_after_a_shortcut_goes_into_the_field_that_it_opens() {
+    let Some(display) = Display::start() else { return };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut sandbox = Sandbox::open(&display, folder.path(), ONE_PARTICLE);
+    sandbox.wait("the title", |s| s.title().ends_with("One particle"));
+    // Letters of the first text are shortcuts of the scene: a tool, pause, restart, the next tool.
+    for (shortcut, text, title) in
+        [("ctrl+k", "exact double", "Exact double pendulum"), ("ctrl+o", "newtons cr", "Newton's cradle")]
+    {
+        let keys = ["key", shortcut, "type", "--delay", "30", "--args", "1", text, "key", "Return"];
+        display.run("xdotool", &keys);
+        sandbox.wait(title, |s| s.title().ends_with(title));
+    }
+    display.run("xdotool", &["key", "ctrl+s", "type", "--delay", "30", "--args", "1", "typed.ron", "key", "Return"]);
+    let path = folder.path().join("typed.ron");
+    sandbox.wait("the file", |_| path.exists());
+    let (status, printed) = sandbox.close();
+    assert_eq!(status.code(), Some(0), "{printed}");
 }
 
 #[test]

@@ -16,6 +16,8 @@ pub enum Command {
     Speed(f64),
     /// Opens a shipped scene by name, or a scene file by path. On failure the running scene stays and a fault is shown.
     Open(String),
+    /// Opens a new, empty scene.
+    New,
     /// Writes the world as it stands to a scene file.
     SaveAs(std::path::PathBuf),
     /// Changes how the world is stepped.
@@ -40,10 +42,18 @@ pub enum Command {
     Release,
     /// An edit, undone as one.
     Edit(Edit),
+    /// A piece of a slash, from point to point: cuts what it crosses [m]. All pieces since the first are undone as one.
+    Slash {
+        from: DVec2,
+        to: DVec2,
+        first: bool,
+    },
     Undo,
     Redo,
     /// Forgets the shown fault.
     DismissFault,
+    /// Forgets the shown note.
+    DismissNote,
     /// Ends the thread.
     Quit,
 }
@@ -86,6 +96,12 @@ pub enum Edit {
 }
 
 impl Edit {
+    /// Whether it puts something new into the scene: what was just placed is selected.
+    pub fn places(&self) -> bool {
+        use Edit::{AddWall, Duplicate, Hang, Join, Spawn};
+        matches!(self, Spawn { .. } | Duplicate(..) | Join(_) | Hang { .. } | AddWall(_))
+    }
+
     /// The name under which undo and redo offer it.
     pub fn name(&self) -> String {
         match self {

@@ -58,6 +58,8 @@ pub struct Frame {
     pub speed: Speed,
     /// What went wrong last, and how to mend it, until dismissed or resolved.
     pub fault: Option<String>,
+    /// What happened last that a user should know, until it is dismissed or out of date.
+    pub note: Option<Arc<str>>,
     /// The file that the scene was last written to, until it is edited or left.
     pub saved: Option<String>,
     /// Names of the edits that undo and redo would act on.

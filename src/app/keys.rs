@@ -15,6 +15,7 @@ pub enum Action {
     PreviousScene,
     NextScene,
     OpenByName,
+    NewScene,
     Save,
     ZoomIn,
     ZoomOut,
@@ -119,6 +120,12 @@ pub const ENTRIES: &[Entry] = &[
     entry(Action::PreviousScene, &[key("[")], "Previous scene", "Opens the scene before this one in the list."),
     entry(Action::NextScene, &[key("]")], "Next scene", "Opens the scene after this one in the list."),
     entry(Action::OpenByName, &[ctrl("O")], "Open…", "Opens a scene by its name, or a scene file by its path."),
+    entry(
+        Action::NewScene,
+        &[ctrl("N")],
+        "New scene",
+        "Opens an empty scene to build in. The scene before it comes back by Undo.",
+    ),
     entry(Action::Save, &[ctrl("S")], "Save as…", "Writes the scene as it stands to a file."),
     entry(Action::ZoomIn, &[ctrl("=")], "Zoom in", "Shows a smaller part of the world. The wheel zooms to the cursor."),
     entry(

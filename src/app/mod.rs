@@ -1,6 +1,7 @@
 //! The sandbox without its window: the simulation thread, the commands it takes, the frames it publishes, the camera, the
 //! tools of the canvas, the table of actions, undo.
 
+pub mod blank;
 pub mod camera;
 pub mod command;
 pub mod companion;
@@ -15,6 +16,7 @@ pub mod plot_data;
 pub mod session;
 mod setting;
 mod simulation;
+mod takeback;
 pub mod tools;
 pub mod trace;
 

@@ -1,5 +1,6 @@
 //! The simulation without its thread: the world, its stepper and its history, and what every command does to them.
 
+use super::blank::{self, blank};
 use super::command::{Command, Edit};
 use super::companion::{Beginning, Input, Links, Report, Standing, Waker};
 use super::edit;
@@ -14,6 +15,7 @@ use crate::measure::Measures;
 use crate::scene::{self, Setup};
 use crate::trial::Trial;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -42,8 +44,14 @@ pub(super) struct Simulation {
     running: bool,
     speed: f64,
     fault: Option<String>,
+    /// What happened last that a user should know.
+    note: Option<Arc<str>>,
     /// The file that the scene was last written to, until it is edited or left.
     saved: Option<String>,
+    /// It was edited since it was opened or written to a file.
+    edited: bool,
+    /// The last entry of the history is of the slash at hand.
+    slashed: bool,
     /// What the last edit made or changed.
     touched: Arc<Vec<Id>>,
     opened: u64,
@@ -78,7 +86,10 @@ impl Simulation {
             running: fault.is_none(),
             speed: 1.0,
             fault,
+            note: None,
             saved: None,
+            edited: false,
+            slashed: false,
             touched: Arc::default(),
             opened: 1,
             published: None,
@@ -133,6 +144,7 @@ impl Simulation {
             running: self.running,
             speed: Speed { wanted: self.speed, achieved },
             fault: self.fault.clone(),
+            note: self.note.clone(),
             saved: self.saved.clone(),
             undo: self.history.undo_name().map(str::to_owned),
             redo: self.history.redo_name().map(str::to_owned),
@@ -221,20 +233,17 @@ impl Simulation {
             Command::Restart => {
                 // How to step was chosen for this scene, perhaps to compare it over the same motion.
                 let setup = Setup { method: *self.stepper.method(), ..(*self.start).clone() };
-                self.open(setup, "Restart");
+                let name = format!("Restart {}", setup.name);
+                self.open(setup, name);
             }
             Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
             Command::Speed(speed) => return Err(format!("speed is {speed}, but must be between 0.01 and 10")),
             Command::Open(name) => {
                 let setup = scene::open(&name).map_err(|error| error.to_string())?;
-                self.open(setup, "Open");
+                self.open(setup, format!("Open {name}"));
             }
-            Command::SaveAs(path) => {
-                let setup =
-                    Setup { world: self.world.clone(), method: *self.stepper.method(), ..(*self.start).clone() };
-                scene::save(&path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
-                self.saved = Some(path.display().to_string());
-            }
+            Command::New => self.open(blank(), "New scene".into()),
+            Command::SaveAs(path) => self.save(&path)?,
             Command::Method(method) => {
                 let name = setting::method(self.stepper.method(), &method);
                 let rate = (self.stepper.method().hz != method.hz).then_some(Input::Rate(method.hz));
@@ -279,7 +288,14 @@ impl Simulation {
                 self.world.set_grip(None).map_err(text)?;
                 self.tell(&Input::Release);
             }
-            Command::Edit(edit) => self.edit(&edit)?,
+            Command::Edit(edit) => {
+                self.slashed = false;
+                self.edit(&edit)?;
+            }
+            Command::Slash { from, to, first } => {
+                self.slashed &= !first;
+                self.edit(&Edit::Cut(from, to))?;
+            }
             Command::Undo => {
                 let now = self.state();
                 if let Some(state) = self.history.undo(now) {
@@ -293,6 +309,7 @@ impl Simulation {
                 }
             }
             Command::DismissFault => self.fault = None,
+            Command::DismissNote => self.note = None,
             Command::Quit => self.running = false,
         }
         Ok(())
@@ -337,15 +354,40 @@ impl Simulation {
     }
 
     fn state(&self) -> State {
-        State { world: self.world.clone(), method: *self.stepper.method(), start: self.start.clone() }
+        let (world, method) = (self.world.clone(), *self.stepper.method());
+        State { world, method, start: self.start.clone(), edited: self.edited }
     }
 
     /// Starts a scene, which can be undone. A method that cannot be used shows a fault and changes nothing.
-    fn open(&mut self, setup: Setup, name: &str) {
+    fn open(&mut self, setup: Setup, name: String) {
         let before = self.state();
-        let state = State { world: setup.world.clone(), method: setup.method, start: Arc::new(setup) };
-        self.history.record(format!("{name} {}", state.start.name), before);
+        let (world, method) = (setup.world.clone(), setup.method);
+        let state = State { world, method, start: Arc::new(setup), edited: false };
+        self.history.record_leap(name, before);
+        let title = if self.scene.title.is_empty() { &self.scene.name } else { &self.scene.title };
+        let lost = self.edited.then(|| title.clone());
         self.restore(state);
+        self.note = lost.map(|title| {
+            format!("“{title}” had changes that were not saved. Undo [Ctrl-Z] brings it back as it was.").into()
+        });
+    }
+
+    /// Writes the scene as it stands to a file. A new scene is called after its first one.
+    fn save(&mut self, path: &Path) -> Result<(), String> {
+        let mut setup = Setup { world: self.world.clone(), method: *self.stepper.method(), ..(*self.start).clone() };
+        let is_new = setup.name == blank::NAME;
+        if let Some(stem) = path.file_stem().filter(|_| is_new) {
+            (setup.title, setup.about) = (stem.to_string_lossy().into_owned(), String::new());
+        }
+        scene::save(path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
+        if is_new {
+            let (name, title, about) = (path.display().to_string(), setup.title, setup.about);
+            self.start = Arc::new(Setup { name, title, about, ..(*self.start).clone() });
+            self.scene = Arc::new(info(&self.start, self.opened));
+        }
+        self.saved = Some(path.display().to_string());
+        (self.edited, self.note) = (false, None);
+        Ok(())
     }
 
     /// Changes the setting `name`, if any is another one than before. `last` is the setting that the command before changed,
@@ -362,13 +404,10 @@ impl Simulation {
         };
         let now = Instant::now();
         let goes_on = last.is_some_and(|(last, when)| last == name && now.duration_since(when) <= SETTLING);
-        let before = (!goes_on).then(|| self.state());
+        let before = self.state();
         change(self)?;
-        if let Some(before) = before {
-            self.history.record(format!("Change {name}"), before);
-        }
+        self.note_edit(format!("Change {name}"), before, goes_on);
         self.setting = Some((name, now));
-        self.saved = None;
         // Energies follow gravity and stiffness at once, also while paused.
         self.measures = Measures::of(&self.world);
         Ok(())
@@ -381,8 +420,8 @@ impl Simulation {
             Ok(touched) => {
                 self.tell(&Input::of_edit(edit, &touched));
                 self.touched = Arc::new(touched);
-                self.saved = None;
-                self.history.record(edit.name(), before);
+                self.note_edit(edit.name(), before, self.slashed);
+                self.slashed = matches!(edit, Edit::Cut(..));
                 self.measure_anew();
             }
             Err(error) => {
@@ -391,6 +430,19 @@ impl Simulation {
             }
         }
         Ok(())
+    }
+
+    /// Keeps what is needed to take back the edit just made; one that goes on is taken back with the part before it.
+    fn note_edit(&mut self, name: String, before: State, goes_on: bool) {
+        self.saved = None;
+        self.note = None;
+        self.edited = true;
+        let after = self.state();
+        if goes_on {
+            self.history.extend(&before, after);
+        } else {
+            self.history.record(name, before, after);
+        }
     }
 
     /// Takes up a state from the history or the start of a scene. A hold is let go: it belongs to the other state.
@@ -406,7 +458,9 @@ impl Simulation {
         // A new stepper: the old one's plan and memory belong to another world.
         (self.stepper, self.fault) = stepper(state.method);
         self.plots.rewind(self.world.time());
-        self.saved = None;
+        (self.saved, self.note) = (None, None);
+        self.edited = state.edited;
+        self.slashed = false;
         self.report = StepReport::default();
         self.measure_anew();
         // A state from the history may be of an untouched run, but only its start is known to be.

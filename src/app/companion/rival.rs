@@ -107,6 +107,7 @@ impl Rival {
             running: true,
             speed: Speed { wanted: 1.0, achieved: 1.0 },
             fault: None,
+            note: None,
             saved: None,
             undo: None,
             redo: None,
