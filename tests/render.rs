@@ -33,7 +33,7 @@ fn frame(world: World) -> Frame {
         measures: Measures::default(),
         plan: String::new(),
         running: false,
-        speed: Speed { wanted: 1.0, achieved: 1.0 },
+        speed: Speed { wanted: 1.0, slow: false, achieved: 1.0 },
         fault: None,
         note: None,
         saved: None,

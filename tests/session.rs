@@ -457,6 +457,22 @@ fn speed_scales_simulated_time() {
 }
 
 #[test]
+fn slow_motion_is_a_tenth_of_the_speed_and_leaves_it_as_it_was() {
+    let session = start(weightless());
+    session.send(Command::Speed(2.0));
+    session.send(Command::Slow(true));
+    let slow = wait_for(&session, "slow motion", |f| f.speed.slow);
+    assert_eq!((slow.speed.wanted, slow.speed.rate()), (2.0, 0.2));
+    std::thread::sleep(Duration::from_secs(1));
+    let passed = session.frame().world.time() - slow.world.time();
+    // A fifth of the second, a step (1/60 s) either way at the ends; a busy machine can only make it less.
+    assert!(passed > 0.02 && passed < 0.25, "{passed} s simulated in 1 s");
+    session.send(Command::Slow(false));
+    let fast = wait_for(&session, "the speed", |f| !f.speed.slow);
+    assert_eq!(fast.speed.rate(), 2.0);
+}
+
+#[test]
 fn the_plots_hold_every_step_even_those_without_a_frame() {
     let mut world = World::new();
     add(&mut world, v(0.0, 0.0));

@@ -135,6 +135,7 @@ fn bridge() -> Frame {
             stage_us: stage_us.map(|us| us * busy),
             step_us: 310.0 * busy,
             local_error: 1e-9 * (1.0 + busy),
+            lapses: 0,
         });
     }
     let measures = plots.read().back().expect("pushed above").measures;
@@ -159,7 +160,7 @@ fn bridge() -> Frame {
         trace: tautline::app::Trace::default(),
         plan: "Forty rods and one contact pair: the grid finds contacts, PGS sweeps all rows in order.".into(),
         running: true,
-        speed: Speed { wanted: 1.0, achieved: 0.62 },
+        speed: Speed { wanted: 1.0, slow: false, achieved: 0.62 },
         fault: None,
         note: None,
         saved: None,
@@ -283,6 +284,73 @@ fn overriding_a_material_offers_its_slider_and_sends_it() {
         let set = |c: &Command| matches!(c, Command::Tuning(t) if [t.restitution, t.friction].contains(&Some(0.25)));
         assert!(commands.iter().any(set), "{slider}: {commands:?}");
     }
+}
+
+/// The same bridge, by accuracy.
+fn by_accuracy() -> Frame {
+    let frame = bridge();
+    let report = StepReport { tick: 1200, local_error: 2e-7, ..frame.report };
+    Frame { method: Method { automatic: true, accuracy: 1e-3, ..frame.method }, report, ..frame }
+}
+
+#[test]
+fn by_accuracy_there_is_one_dial_what_it_chose_costs_and_is_off_by_and_the_rest_is_folded() {
+    let mut harness = harness(by_accuracy());
+    for hidden in ["Substeps", "Iterations", "Integrator", "Constraint solver", "Warm starting", "Baumgarte"] {
+        assert!(harness.query_by_label(hidden).is_none(), "{hidden} has no effect and is in sight");
+    }
+    for shown in ["Accuracy", "Forty rods and one contact pair", "310 µs of 16.7 ms", "2e−7"] {
+        assert!(harness.query_all_by_label_contains(shown).next().is_some(), "{shown}");
+    }
+    harness.get_by_label("By hand").click();
+    harness.run();
+    assert!(harness.query_by_label_contains("these settings had no effect").is_some());
+    harness.get_by_label("Substeps").set_value_accesskit(3.0);
+    harness.run();
+    assert!(taken(&mut harness).iter().any(|c| matches!(c, Command::Method(m) if m.substeps == 3 && m.automatic)));
+    // Where something goes through the substeps they do have one.
+    Arc::make_mut(&mut harness.state_mut().frame).report.substeps = 8;
+    harness.run();
+    assert!(harness.query_by_label_contains("these settings had no effect").is_none());
+}
+
+#[test]
+fn steps_that_did_not_keep_the_accuracy_are_told_by_the_bar_and_the_plot() {
+    let frame = by_accuracy();
+    let mut harness = harness(frame.clone());
+    harness.state_mut().shell.state_mut().plot = PlotTab::LocalError;
+    harness.run();
+    assert!(harness.query_by_label_contains("Accuracy kept").is_some());
+    assert!(harness.query_by_label_contains("Not kept").is_none());
+    let last = *frame.plots.read().back().expect("it has samples");
+    let report = StepReport { given_up: 1, ..frame.report };
+    for i in 1..=3 {
+        let measures = Measures { time: last.measures.time + f64::from(i) / 60.0, ..last.measures };
+        frame.plots.push(Sample::new(measures, &report));
+    }
+    harness.run();
+    assert!(harness.query_by_label_contains("Accuracy not kept in 3 of").is_some());
+    assert!(harness.query_by_label_contains("Not kept 3 steps").is_some());
+}
+
+#[test]
+fn a_held_key_slows_time_but_not_while_a_field_has_the_keyboard() {
+    let mut harness = harness(bridge());
+    harness.key_down(Key::M);
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::Slow(true)]));
+    harness.key_up(Key::M);
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::Slow(false)]));
+    harness.get_by_label("Find a scene").focus();
+    harness.run();
+    harness.key_down(Key::M);
+    harness.run();
+    harness.key_up(Key::M);
+    harness.run();
+    assert!(taken(&mut harness).is_empty());
+    at_once(&mut harness, hurried(Key::K, "slow motion").concat());
+    assert!(matches!(taken(&mut harness)[..], [Command::Slow(true)]), "by its name it is switched on");
 }
 
 #[test]
@@ -928,6 +996,24 @@ fn the_distance_from_the_truth_carries_its_error_and_so_does_a_selected_body() {
 }
 
 #[test]
+fn the_error_of_a_known_motion_is_in_the_status_bar_without_the_ghost() {
+    let mut harness = harness(accompanied());
+    assert!(!harness.state().shell.state().view.ghost);
+    assert!(harness.query_all_by_label_contains("Off truth 1.302 ± 0.002 mm RMS").next().is_some());
+    assert!(taken(&mut harness).is_empty(), "nothing has to be asked for");
+    for (standing, text) in [
+        (Standing::Over { after: 1.5, touched: false }, "Off truth 700 µm RMS over its 1.50 s"),
+        (Standing::Over { after: 0.4, touched: true }, "Off truth not known: changed at 0.40 s"),
+    ] {
+        let report = Report { generation: 1, standing, so_far: 7e-4, length: 2.0, ..Report::default() };
+        let frame = Arc::make_mut(&mut harness.state_mut().frame);
+        frame.companions.truth = Some(Companion::fixed(report, []));
+        harness.run();
+        assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
+    }
+}
+
+#[test]
 fn side_by_side_the_panes_are_alike_and_the_method_of_the_second_is_chosen() {
     let mut harness = harness(accompanied());
     let (whole, scale) = (harness.state().canvas.width(), harness.state().camera.scale);
@@ -940,6 +1026,9 @@ fn side_by_side_the_panes_are_alike_and_the_method_of_the_second_is_chosen() {
     assert_eq!(harness.state().camera.scale, scale / 2.0);
     assert!(harness.query_by_label("Rival canvas").is_some());
     assert!(harness.query_all_by_label_contains("Seen to part at 2.12 s").next().is_some());
+    assert!(harness.query_by_label("B substeps").is_none(), "by accuracy it is folded away");
+    harness.get_by_label("B by hand").click_accesskit();
+    harness.run();
     harness.get_by_label("B substeps").set_value_accesskit(9.0);
     harness.run();
     assert!(taken(&mut harness).iter().any(|c| matches!(c, Command::Rival(Some(Method { substeps: 9, .. })))));

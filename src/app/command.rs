@@ -14,6 +14,8 @@ pub enum Command {
     Restart,
     /// Wanted speed: simulated seconds a second, 0.01 … 10.
     Speed(f64),
+    /// Slow motion, at [`super::frame::SLOW`] of the wanted speed, or no longer.
+    Slow(bool),
     /// Opens a shipped scene by name, or a scene file by path. On failure the running scene stays and a fault is shown.
     Open(String),
     /// Opens a new, empty scene.
@@ -25,7 +27,8 @@ pub enum Command {
     Gravity(DVec2),
     Drag(f64),
     Tuning(Tuning),
-    /// Lets the truth follow the simulation, or no longer.
+    /// Lets the truth follow the simulation further than it is known, or no longer. A motion that is known is compared in any
+    /// case.
     Truth(bool),
     /// Lets a rival under this method follow the simulation, gives it this method, or ends it.
     Rival(Option<Method>),

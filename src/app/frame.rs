@@ -29,8 +29,25 @@ pub struct SceneInfo {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speed {
     pub wanted: f64,
+    /// Slow motion is on: a part of what is wanted.
+    pub slow: bool,
     /// Averaged over about half a second.
     pub achieved: f64,
+}
+
+/// Speed in slow motion, in parts of the wanted one.
+pub const SLOW: f64 = 0.1;
+
+impl Speed {
+    /// What the simulation tries to keep to at the moment.
+    pub fn rate(&self) -> f64 {
+        if self.slow { SLOW * self.wanted } else { self.wanted }
+    }
+
+    /// Whether it clearly falls behind.
+    pub fn falls_short(&self) -> bool {
+        self.achieved < 0.95 * self.rate()
+    }
 }
 
 /// One state of the simulation, whole. The window reads it and never waits for the next.

@@ -2,9 +2,9 @@
 
 use super::blank::{self, blank};
 use super::command::{Command, Edit};
-use super::companion::{Beginning, Input, Links, Report, Standing, Waker};
+use super::companion::{Beginning, Extent, Input, Links, Report, Standing, Waker};
 use super::edit;
-use super::frame::{Frame, SceneInfo, Speed};
+use super::frame::{Frame, SLOW, SceneInfo, Speed};
 use super::history::{History, State};
 use super::laboratory::{Job, LabOrder, Laboratory};
 use super::plot_data::{Plots, Sample};
@@ -43,6 +43,7 @@ pub(super) struct Simulation {
     previous_angle: Vec<f64>,
     running: bool,
     speed: f64,
+    slow: bool,
     fault: Option<String>,
     /// What happened last that a user should know.
     note: Option<Arc<str>>,
@@ -59,6 +60,10 @@ pub(super) struct Simulation {
     published: Option<Arc<Frame>>,
     /// The worlds that follow this one.
     links: Links,
+    /// The truth was asked for, also where it must be computed.
+    ghost: bool,
+    /// The exact motion of the scene from its start is known.
+    known: bool,
     laboratory: Laboratory,
     waker: Waker,
     /// Nothing but the method was changed since the scene was opened.
@@ -71,7 +76,7 @@ impl Simulation {
     pub(super) fn new(setup: Setup, waker: Waker) -> Simulation {
         let (stepper, fault) = stepper(setup.method);
         let start = Arc::new(setup);
-        Simulation {
+        let mut simulation = Simulation {
             world: start.world.clone(),
             stepper,
             scene: Arc::new(info(&start, 1)),
@@ -85,6 +90,7 @@ impl Simulation {
             previous_angle: Vec::new(),
             running: fault.is_none(),
             speed: 1.0,
+            slow: false,
             fault,
             note: None,
             saved: None,
@@ -94,21 +100,27 @@ impl Simulation {
             opened: 1,
             published: None,
             links: Links::default(),
+            ghost: false,
+            known: start.known_motion().is_some(),
             laboratory: Laboratory::default(),
             waker,
             untouched: true,
             trial: Trial::of(&start),
             start,
+        };
+        if let Err(error) = simulation.follow_truth() {
+            simulation.fault.get_or_insert(error);
         }
+        simulation
     }
 
     pub(super) fn running(&self) -> bool {
         self.running
     }
 
-    /// Wanted speed [simulated seconds a second].
+    /// Speed to keep to at the moment [simulated seconds a second].
     pub(super) fn speed(&self) -> f64 {
-        self.speed
+        if self.slow { SLOW * self.speed } else { self.speed }
     }
 
     pub(super) fn time(&self) -> f64 {
@@ -142,7 +154,7 @@ impl Simulation {
             trace: self.trace.clone(),
             plan: self.stepper.plan(&self.world).sentence().to_string(),
             running: self.running,
-            speed: Speed { wanted: self.speed, achieved },
+            speed: Speed { wanted: self.speed, slow: self.slow, achieved },
             fault: self.fault.clone(),
             note: self.note.clone(),
             saved: self.saved.clone(),
@@ -238,6 +250,7 @@ impl Simulation {
             }
             Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
             Command::Speed(speed) => return Err(format!("speed is {speed}, but must be between 0.01 and 10")),
+            Command::Slow(slow) => self.slow = slow,
             Command::Open(name) => {
                 let setup = scene::open(&name).map_err(|error| error.to_string())?;
                 self.open(setup, format!("Open {name}"));
@@ -266,8 +279,8 @@ impl Simulation {
                 name.iter().for_each(|_| self.tell(&Input::Tuning(tuning)));
             }
             Command::Truth(on) => {
-                let beginning = self.beginning();
-                self.links.set_truth(on, beginning, &self.waker).map_err(|error| no_thread("truth", &error))?;
+                self.ghost = on;
+                self.follow_truth()?;
             }
             Command::Rival(method) => {
                 if let Some(method) = &method {
@@ -340,6 +353,17 @@ impl Simulation {
             self.untouched = false;
             self.trial.iter_mut().for_each(Trial::void);
         }
+    }
+
+    /// Lets the truth follow as far as it is wanted: what is known costs nothing.
+    fn follow_truth(&mut self) -> Result<(), String> {
+        let extent = match (self.ghost, self.known) {
+            (true, _) => Some(Extent::Computed),
+            (false, true) => Some(Extent::Known),
+            (false, false) => None,
+        };
+        let beginning = self.beginning();
+        self.links.set_truth(extent, beginning, &self.waker).map_err(|error| no_thread("truth", &error))
     }
 
     /// Where a companion would begin to follow now.
@@ -450,6 +474,7 @@ impl Simulation {
         if !Arc::ptr_eq(&state.start, &self.start) {
             self.opened += 1;
             self.scene = Arc::new(info(&state.start, self.opened));
+            self.known = state.start.known_motion().is_some();
             self.plots.clear();
         }
         self.world = state.world;
@@ -469,6 +494,9 @@ impl Simulation {
         if self.links.any() {
             let beginning = self.beginning();
             self.links.begin(&beginning);
+        }
+        if let Err(error) = self.follow_truth() {
+            self.fault.get_or_insert(error);
         }
     }
 

@@ -260,7 +260,7 @@ mod tests {
             trace: crate::app::Trace::default(),
             plan: String::new(),
             running: true,
-            speed: Speed { wanted: 1.0, achieved: 1.0 },
+            speed: Speed { wanted: 1.0, slow: false, achieved: 1.0 },
             fault: None,
             note: None,
             saved: None,

@@ -36,6 +36,7 @@ impl Shell {
             Action::Restart => scene.commands.push(Command::Restart),
             Action::Slower => scene.commands.push(Command::Speed(speed(frame.speed.wanted, 0.5))),
             Action::Faster => scene.commands.push(Command::Speed(speed(frame.speed.wanted, 2.0))),
+            Action::SlowMotion => scene.commands.push(Command::Slow(!frame.speed.slow)),
             Action::Undo if frame.undo.is_some() => scene.commands.push(Command::Undo),
             Action::Redo if frame.redo.is_some() => scene.commands.push(Command::Redo),
             Action::Undo | Action::Redo => {}
@@ -185,10 +186,18 @@ pub fn pressed(ui: &egui::Ui, typing: bool, space_panned: &mut bool) -> Vec<Acti
             if space && std::mem::take(space_panned) {
                 continue;
             }
-            actions.extend(action_of(*key, *modifiers).filter(|action| !typing || allowed_while_typing(*action)));
+            // That one lasts as long as its key is held: see `slow_motion_held`.
+            let begins = |action: &Action| *action != Action::SlowMotion && (!typing || allowed_while_typing(*action));
+            actions.extend(action_of(*key, *modifiers).filter(begins));
         }
         actions
     })
+}
+
+/// Whether the key of slow motion is held now.
+pub fn slow_motion_held(ui: &egui::Ui) -> bool {
+    let key = Action::SlowMotion.entry().shortcuts.first().and_then(|shortcut| Key::from_name(shortcut.key));
+    ui.input(|input| !input.modifiers.command && key.is_some_and(|key| input.key_down(key)))
 }
 
 /// Whether the scene itself has the keyboard.
@@ -222,6 +231,7 @@ pub fn turns(key: Key, modifiers: Modifiers) -> bool {
             | Action::StepOnce
             | Action::Slower
             | Action::Faster
+            | Action::SlowMotion
             | Action::ZoomIn
             | Action::ZoomOut
             | Action::FitAll

@@ -53,6 +53,8 @@ pub struct Shell {
     /// For how many passes an opened field has not been drawn.
     awaited: u32,
     note: fault::Shown,
+    /// The key of slow motion is held.
+    slow: bool,
 }
 
 /// What came of a pass.
@@ -120,6 +122,10 @@ impl Shell {
         self.ask(&mut commands);
         let typing = self.reader != Reader::Scene || self.state.help || ui.ctx().text_edit_focused();
         let mut actions = actions::pressed(ui, typing, &mut self.space_panned);
+        let slow = !typing && actions::slow_motion_held(ui);
+        if std::mem::replace(&mut self.slow, slow) != slow {
+            commands.push(Command::Slow(slow));
+        }
         if self.state.panels {
             self.panels(ui, frame, &mut actions, &mut commands);
         }
@@ -316,6 +322,7 @@ impl Shell {
             trails: view.trails,
             tension: view.tension,
             speed: view.speed,
+            ghost: view.ghost,
             selected: self.tools.selection().to_vec(),
             hovered: self.tools.hovered(),
             grip_cursor: None,

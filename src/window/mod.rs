@@ -77,5 +77,5 @@ fn interpolation(frame: &crate::app::Frame, since: f64) -> f64 {
     if !frame.running || frame.previous_position.is_empty() {
         return 1.0;
     }
-    (since * frame.speed.wanted * frame.method.hz).clamp(0.0, 1.0)
+    (since * frame.speed.rate() * frame.method.hz).clamp(0.0, 1.0)
 }

@@ -105,7 +105,7 @@ impl Rival {
             trace: self.trace.clone(),
             plan,
             running: true,
-            speed: Speed { wanted: 1.0, achieved: 1.0 },
+            speed: Speed { wanted: 1.0, slow: false, achieved: 1.0 },
             fault: None,
             note: None,
             saved: None,
