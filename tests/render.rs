@@ -5,7 +5,8 @@ mod common;
 
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
-use tautline::app::{Camera, Frame, SceneInfo, Speed};
+use tautline::app::companion::{Offsets, Report};
+use tautline::app::{Camera, Companion, Frame, SceneInfo, Speed};
 use tautline::engine::{
     Body, Constraint, DVec2, Grip, Id, Kind, Method, Motion, Spin, StepReport, Stepper, Wall, World,
 };
@@ -205,6 +206,62 @@ fn particles_without_size_are_dots_that_can_be_seen() {
     let image = shoot_world(gpu, &disc_world(DVec2::ZERO, 0.0), &camera(DVec2::ZERO, 1e-2, [40, 40]), &bare(), 1.0);
     let seen = differing(&image, Theme::Dark.palette().background);
     assert!((28..=46).contains(&seen), "{seen} px for a dot of radius 3");
+}
+
+#[test]
+fn point_masses_on_links_have_bobs_and_a_heavy_one_a_larger_one() {
+    for name in ["truth/pendulum", "truth/double_pendulum", "truth/heavy_rope", "truth/stiff_chain"] {
+        let setup = tautline::scene::open(name).unwrap();
+        let (centre, height) = setup.view.expect("a truth scene says what to show");
+        let mut picture = Picture::new();
+        let world = setup.world;
+        let view = camera(centre, 500.0 / height, [700, 500]);
+        picture.build(&frame(world.clone()), &view, &bare(), 1.0);
+        let radius = |body: usize| {
+            let at = (world.bodies().position[body] - centre) * view.scale;
+            let near =
+                |disc: &&DiscMark| (f64::from(disc.centre[0]) - at.x).hypot(f64::from(disc.centre[1]) - at.y) < 0.01;
+            picture.discs().iter().find(near).expect("drawn").radius
+        };
+        let last = world.bodies().len() - 1;
+        println!("{name}: {} points, the last {} points", radius(1), radius(last));
+        assert!(radius(last) >= 4.5, "{name}: {} points", radius(last));
+        if name == "truth/heavy_rope" {
+            assert!(radius(last) > 2.0 * radius(1), "5000 times heavier");
+        }
+    }
+}
+
+#[test]
+fn the_ghost_is_drawn_where_it_is_wanted_and_can_be_told_from_the_canvas() {
+    let mut world = disc_world(DVec2::ZERO, 0.5);
+    world.set_gravity(DVec2::ZERO).unwrap();
+    let bodies = Arc::new(world.bodies().id.clone());
+    let offsets = Offsets { bodies, shift: vec![DVec2::new(2.0, 0.0)], turn: Vec::new() };
+    let report = Report { generation: 1, offsets: Arc::new(offsets), ..Report::default() };
+    let mut frame = frame(world);
+    frame.companions.truth = Some(Companion::fixed(report, []));
+    let view = camera(DVec2::ZERO, 50.0, [400, 200]);
+    let mut picture = Picture::new();
+    for theme in [Theme::Dark, Theme::Light] {
+        picture.build(&frame, &view, &ViewOptions { theme, ghost: false, ..bare() }, 1.0);
+        assert_eq!(picture.discs().len(), 1, "nobody asked for it");
+        picture.build(&frame, &view, &ViewOptions { theme, ghost: true, ..bare() }, 1.0);
+        assert_eq!(picture.discs().len(), 2);
+        if let Some(gpu) = gpu() {
+            let image = shoot(gpu, &picture, [400, 200], 1.0);
+            let luminance = |x: u32, y: u32| {
+                let [r, g, b, _] = image.pixel(x, y).unwrap();
+                let linear = |c: u8| (f64::from(c) / 255.0).powf(2.2);
+                0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b)
+            };
+            let [ghost, ground] = [luminance(300, 100), luminance(20, 20)];
+            let contrast = (ghost.max(ground) + 0.05) / (ghost.min(ground) + 0.05);
+            println!("{theme:?}: contrast of the ghost {contrast:.1}");
+            // What WCAG 2.1 asks of graphics that must be told from their ground.
+            assert!(contrast >= 3.0, "{theme:?}: {contrast}");
+        }
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
+use tautline::app::drawn::Sizes;
 use tautline::app::history::{History, State};
 use tautline::app::{Action, Button, Camera, Command, Edit, Frame, Join, Modifiers, Phase, PointerEvent};
 use tautline::app::{Session, Spawn, Tool, Tools, edit, keys, pick};
@@ -664,6 +665,84 @@ fn the_drag_tool_grips_a_body_and_draws_a_selection_box_on_empty_ground() {
     assert!(hand.tools.selection().is_empty(), "a click on nothing selects nothing");
     hand.drag(&world, v(1.0, 1.0), v(1.0, 1.0));
     assert_eq!(hand.tools.selection(), [ball], "a click selects");
+}
+
+#[test]
+fn a_rod_is_held_anywhere_along_it_and_led_so_that_the_place_follows_the_pointer() {
+    let mut world = World::new();
+    let (a, b) = (add(&mut world, v(-2.0, 0.0)), add(&mut world, v(2.0, 0.0)));
+    let link = rod(&mut world, 4.0, a, b);
+    let hook = add(&mut world, v(0.0, 2.0));
+    let fixed = world.body(hook).expect("there");
+    world.set_body(hook, &Body { motion: Motion::Static, ..fixed }).expect("valid");
+    let hung = add(&mut world, v(3.0, 2.0));
+    let hanger = world.add_constraint(&Constraint::between(Kind::Rope { length: 3.0 }, hook, hung)).expect("valid");
+    for (press, held, end) in [
+        (v(-0.5, 0.0), a, v(-2.0, 0.0)),
+        (v(0.5, 0.0), b, v(2.0, 0.0)),
+        // The nearer end is fixed: the other one is held.
+        (v(0.5, 2.0), hung, v(3.0, 2.0)),
+    ] {
+        let mut hand = Hand::with(Tool::Drag);
+        let target = press + v(0.3, 0.7);
+        match &hand.drag(&world, press, target)[..] {
+            [Command::Grab { body, at }, Command::MoveGrip(to), Command::Release] => {
+                assert_eq!(*body, held, "{press}");
+                assert!(at.distance(end) < 1e-9 && to.distance(target + end - press) < 1e-9, "{press}: {at} {to}");
+            }
+            other => panic!("{press}: {other:?}"),
+        }
+        assert!(hand.tools.selection().is_empty(), "a drag does not select");
+    }
+    let mut hand = Hand::with(Tool::Drag);
+    hand.drag(&world, v(-0.5, 0.0), v(-0.5, 0.0));
+    assert_eq!(hand.tools.selection(), [link], "a click selects the rod");
+    // Both ends fixed: there is nothing to take hold of.
+    let fixed = world.body(hung).expect("there");
+    world.set_body(hung, &Body { motion: Motion::Static, ..fixed }).expect("valid");
+    assert!(hand.drag(&world, v(0.5, 2.0), v(1.0, 3.0)).is_empty());
+    hand.drag(&world, v(0.5, 2.0), v(0.5, 2.0));
+    assert_eq!(hand.tools.selection(), [hanger]);
+}
+
+#[test]
+fn a_rod_dragged_by_its_middle_comes_along_in_the_simulation() {
+    let mut world = weightless();
+    let (a, b) = (add(&mut world, v(-2.0, 0.0)), add(&mut world, v(2.0, 0.0)));
+    rod(&mut world, 4.0, a, b);
+    let session = start(world);
+    let mut hand = Hand::with(Tool::Drag);
+    let send = |commands: Vec<Command>| commands.into_iter().for_each(|command| session.send(command));
+    send(hand.event(&session.frame().world, Phase::Press(Button::Left), v(-0.5, 0.0)));
+    send(hand.event(&session.frame().world, Phase::Move, v(-0.5, 1.5)));
+    wait_for(&session, "the end to follow", |f| position(f, a).distance(v(-2.0, 1.5)) < 0.05);
+    let frame = session.frame();
+    assert!((position(&frame, a).distance(position(&frame, b)) - 4.0).abs() < 0.05, "the other end is still on it");
+    let (place, pointer) = hand.tools.rod_held(&frame.world).expect("it is held by a rod");
+    assert_eq!(pointer, v(-0.5, 1.5));
+    assert!((place.distance(position(&frame, a)) - 1.5).abs() < 0.05, "{place} is where the rod was grabbed");
+    send(hand.event(&session.frame().world, Phase::Release(Button::Left), v(-0.5, 1.5)));
+    wait_for(&session, "the hold to end", |f| f.world.grip().is_none());
+    assert_eq!(hand.tools.rod_held(&session.frame().world), None);
+}
+
+#[test]
+fn the_bob_of_a_point_mass_is_taken_hold_of_where_it_is_drawn() {
+    let mut world = World::new();
+    let point = |x: f64| Body { position: v(x, 0.0), radius: 0.0, ..Body::default() };
+    let bob = world.add_body(&point(1.0)).expect("valid");
+    let lone = world.add_body(&point(-1.0)).expect("valid");
+    world.add_constraint(&Constraint::to_world(Kind::Rod { length: 1.0 }, bob, v(0.0, 0.0))).expect("valid");
+    let sizes = Sizes::of(&world);
+    let [of_bob, of_lone] = [bob, lone].map(|id| {
+        let index = world.bodies().index_of(id).expect("there");
+        sizes.radius(&world, index, camera().scale)
+    });
+    assert!(of_bob >= 2.0 * of_lone && of_lone > 0.0, "{of_bob} and {of_lone} points");
+    // 1 m are 100 points: within the bob, the body; beyond it, the rod.
+    let at = |points: f64| pick::pick(&world, &camera(), camera().to_canvas(v(1.0, 0.0)) - v(points, 0.0));
+    assert_eq!(at(0.8 * of_bob), Some(bob));
+    assert_ne!(at(of_bob + 12.0), Some(bob));
 }
 
 #[test]

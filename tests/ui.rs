@@ -12,7 +12,7 @@ use tautline::app::laboratory::Stage as LabStage;
 use tautline::app::{Camera, Command, Edit, Frame, Plots, Sample, SceneInfo, Spawn, Speed, Tool, keys, pick};
 use tautline::app::{Companion, Companions, Lab, LabOrder, LabReport};
 use tautline::engine::{
-    Body, Constraint, DVec2, Divergence, Id, Integrator, Kind, Method, Solver, Spin, StepReport, World,
+    Body, Constraint, DVec2, Divergence, Id, Integrator, Kind, Method, Motion, Solver, Spin, StepReport, World,
 };
 use tautline::lab::{ErrorKind, Point, Progress, Setting};
 use tautline::measure::Measures;
@@ -831,6 +831,115 @@ fn the_context_menu_acts_on_what_was_clicked() {
 }
 
 #[test]
+fn bodies_out_of_view_have_arrows_at_the_edge_and_a_click_brings_them_into_view() {
+    let mut world = World::new();
+    for at in [DVec2::ZERO, DVec2::new(40.0, 0.0), DVec2::new(0.1, 30.0), DVec2::new(0.0, 31.0)] {
+        world.add_body(&Body { position: at, radius: 0.2, ..Body::default() }).expect("a good body");
+    }
+    // What never moves is not missed.
+    let fixed = Body { position: DVec2::new(-50.0, 0.0), motion: Motion::Static, ..Body::default() };
+    world.add_body(&fixed).expect("a good body");
+    let (frame, ..) = pair();
+    let mut harness = harness(Frame { world, ..frame });
+    harness.run();
+    assert_eq!(harness.query_all_by_label_contains("out of view").count(), 2);
+    assert!(harness.query_by_label("2 bodies are out of view").is_some());
+    let arrow = harness.get_by_label("Body 2 is out of view").rect();
+    let canvas = harness.state().canvas;
+    assert!(canvas.contains_rect(arrow) && arrow.right() > canvas.right() - 20.0, "{arrow:?} in {canvas:?}");
+    assert!((arrow.center().y - canvas.center().y).abs() < 1.0);
+    harness.get_by_label("Body 2 is out of view").click();
+    harness.run();
+    assert_eq!(harness.state().camera.centre, DVec2::new(40.0, 0.0));
+    assert!(harness.query_by_label("Body 2 is out of view").is_none());
+    assert!(
+        taken(&mut harness).is_empty() && !harness.state().shell.tools().busy(),
+        "the hand did nothing to the scene"
+    );
+}
+
+#[test]
+fn in_a_window_of_800_by_600_the_panels_fold_and_everything_is_reached() {
+    for frame in [bridge(), by_accuracy(), accompanied()] {
+        let mut harness = builder().with_size(vec2(800.0, 600.0)).build_ui_state(show, Desk::new(frame));
+        harness.run();
+        let canvas = harness.state().canvas;
+        assert!(canvas.width() >= 560.0 && canvas.height() >= 440.0, "{canvas:?}");
+        assert!(harness.query_by_label("Cut").is_some() && harness.query_by_label("Gravity y").is_none());
+        // One panel at a time, by its button and by its key.
+        harness.get_by_label("Unfold settings").click();
+        harness.run();
+        assert!(harness.query_by_label("Cut").is_none() && harness.query_by_label("Gravity y").is_some());
+        assert!(harness.state().canvas.width() >= 480.0);
+        harness.key_press(Key::T);
+        harness.run();
+        assert!(harness.query_by_label("Cut").is_some() && harness.query_by_label("Gravity y").is_none());
+        // A field that is opened is there.
+        harness.key_press(Key::I);
+        harness.run();
+        at_once(&mut harness, hurried(Key::O, "newtons").concat());
+        assert!(taken(&mut harness).iter().any(|c| matches!(c, Command::Open(name) if name == "newtons_cradle")));
+        // The plots are their tabs until one is chosen.
+        let tab = |harness: &Harness<'_, Desk>| {
+            let mut tabs = harness.query_all_by_label("Energy");
+            tabs.find(|node| node.accesskit_node().role() == Role::Button).expect("a tab").click();
+        };
+        assert!(harness.query_by_label_contains("Kinetic").is_none());
+        tab(&harness);
+        harness.run();
+        assert!(harness.query_by_label_contains("Kinetic").is_some());
+        assert!(harness.state().canvas.height() >= 250.0, "{:?}", harness.state().canvas);
+        tab(&harness);
+        harness.run();
+        assert!(harness.query_by_label_contains("Kinetic").is_none());
+    }
+}
+
+/// Every text that is painted, with its place.
+fn painted(shape: &egui::Shape, texts: &mut Vec<(Rect, Arc<egui::Galley>)>) {
+    match shape {
+        egui::Shape::Text(text) => texts.push((text.visual_bounding_rect(), text.galley.clone())),
+        egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| painted(shape, texts)),
+        _ => {}
+    }
+}
+
+#[test]
+fn no_text_ends_in_dots_without_a_tooltip() {
+    let long =
+        "A name of a scene that is far too long for any place in which it could stand, and goes on and on for ever";
+    let info = SceneInfo { title: long.into(), about: format!("{long}. {long}."), ..(*bridge().scene).clone() };
+    let saved = Some(format!("/home/somebody/{}/scene.ron", long.replace(' ', "/")));
+    let frame = || Frame { scene: Arc::new(info.clone()), saved: saved.clone(), ..accompanied() };
+    let mut cut = 0;
+    for (width, height) in [(800.0, 600.0), (1280.0, 860.0)] {
+        for settings in [false, true] {
+            let mut harness = builder().with_size(vec2(width, height)).build_ui_state(show, Desk::new(frame()));
+            let body = harness.state().frame.world.bodies().id[0];
+            let state = harness.state_mut().shell.state_mut();
+            (state.settings_panel, state.rival, state.view.ghost) = (settings.then_some(true), true, true);
+            harness.state_mut().shell.select(vec![body]);
+            harness.run();
+            let mut texts = Vec::new();
+            harness.output().shapes.iter().for_each(|clipped| painted(&clipped.shape, &mut texts));
+            let dotted = |galley: &egui::Galley| galley.elided || galley.text().trim_end().ends_with('…');
+            for (rect, galley) in texts.iter().filter(|(_, galley)| dotted(galley)) {
+                let explained = harness.root().children_recursive().any(|node| {
+                    let help = node.accesskit_node().data().description().unwrap_or_default().to_owned();
+                    let (x, y) = (f64::from(rect.center().x), f64::from(rect.center().y));
+                    let there = node.accesskit_node().bounding_box();
+                    there.is_some_and(|there| there.x0 <= x && x <= there.x1 && there.y0 <= y && y <= there.y1)
+                        && !help.is_empty()
+                });
+                assert!(explained, "{:?} at {rect:?}, {width} × {height}", galley.text());
+                cut += 1;
+            }
+        }
+    }
+    assert!(cut >= 8, "only {cut} texts were too long for their place");
+}
+
+#[test]
 fn what_lies_under_the_pointer_is_named_with_its_values() {
     let (frame, ..) = pair();
     let mut harness = harness(frame);
@@ -1151,6 +1260,36 @@ fn the_lab_starts_stops_resumes_and_exports() {
     harness.get_by_label("SVG").click();
     harness.run();
     assert_eq!(taken(&mut harness).iter().find_map(order), Some(LabOrder::Export("lab.svg".into())));
+}
+
+#[test]
+fn the_lab_starts_by_itself_once_a_scene_and_shows_what_is_known_of_it_meanwhile() {
+    let named = |name: &str, opened: u64| {
+        let info = SceneInfo { name: name.into(), title: name.into(), opened, ..(*bridge().scene).clone() };
+        Frame { scene: Arc::new(info), ..bridge() }
+    };
+    let starts = |harness: &mut Harness<'_, Desk>| {
+        taken(harness).iter().filter(|c| matches!(c, Command::Lab(LabOrder::Start))).count()
+    };
+    let mut harness = harness(named("bridge", 1));
+    assert_eq!(starts(&mut harness), 0, "not while nobody looks");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
+    harness.run();
+    harness.run_steps(5);
+    assert_eq!(starts(&mut harness), 1);
+    for text in ["22 bodies, 20 rods", "No exact motion is stored", "Forty rods and one contact pair"] {
+        assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
+    }
+    // Stopped by hand it stays so; another scene is measured anew, and what was published of it is shown.
+    let stopped = LabReport { scene: "bridge".into(), stage: LabStage::Stopped, ..LabReport::default() };
+    harness.state_mut().frame = Arc::new(Frame { lab: Lab::fixed(stopped), ..named("bridge", 1) });
+    harness.run_steps(5);
+    assert_eq!(starts(&mut harness), 0);
+    harness.state_mut().frame = Arc::new(named("truth/rope", 2));
+    harness.run_steps(5);
+    assert_eq!(starts(&mut harness), 1);
+    assert!(harness.query_by_label_contains("points measured before").is_some());
+    assert!(harness.query_by_label_contains("For an error of 1e-6 use").is_some());
 }
 
 #[test]

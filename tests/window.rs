@@ -41,6 +41,11 @@ struct Display {
 impl Display {
     /// A server on a free display; `None`, with the reason printed, where it cannot be had and need not be.
     fn start() -> Option<Display> {
+        Display::of_size("1280x800")
+    }
+
+    /// The same with a screen of this many pixels.
+    fn of_size(size: &str) -> Option<Display> {
         let missing = ["Xvfb", "xdotool", "import"].into_iter().find(|tool| !on_path(tool));
         if let Some(tool) = missing {
             let required = std::env::var("TAUTLINE_REQUIRE_DISPLAY").is_ok_and(|value| value == "1");
@@ -56,7 +61,7 @@ impl Display {
         (0..10)
             .find_map(|attempt| {
                 let name = format!(":{}", 100 + (own + 997 * attempt) % 50_000);
-                serve(&name).map(|server| (server, name))
+                serve(&name, size).map(|server| (server, name))
             })
             .map(|(server, name)| Display { server, name, _turn: turn })
             .or_else(|| panic!("Xvfb does not start"))
@@ -92,9 +97,10 @@ impl Display {
 }
 
 /// An X server that answers under this name; `None` if it ends, because the name is taken, say.
-fn serve(name: &str) -> Option<Child> {
+fn serve(name: &str, size: &str) -> Option<Child> {
     // It must not start anew, and refuse a client meanwhile, each time that a tool was the only client.
-    let arguments = [name, "-noreset", "-screen", "0", "1280x800x24", "-nolisten", "tcp"];
+    let screen = format!("{size}x24");
+    let arguments = [name, "-noreset", "-screen", "0", &screen, "-nolisten", "tcp"];
     let mut server = Command::new("Xvfb").args(arguments).stderr(Stdio::null()).spawn().expect("Xvfb starts");
     let answers = || {
         let mut question = Command::new("xdotool");
@@ -181,7 +187,7 @@ impl Sandbox<'_> {
             s.window = s.display.xdotool("search --name Tautline");
             !s.window.is_empty()
         });
-        sandbox.wait("the first picture", |s| s.display.picture().pixel(640, 20) != [0, 0, 0]);
+        sandbox.wait("the first picture", |s| s.display.picture().pixel(400, 20) != [0, 0, 0]);
         // Without a window manager nobody else gives it the keyboard.
         sandbox.display.xdotool(&format!("windowfocus --sync {}", sandbox.window));
         sandbox
@@ -307,6 +313,24 @@ fn what_is_typed_at_once_after_a_shortcut_goes_into_the_field_that_it_opens() {
     sandbox.wait("the file", |_| path.exists());
     let (status, printed) = sandbox.close();
     assert_eq!(status.code(), Some(0), "{printed}");
+}
+
+#[test]
+fn a_window_never_opens_larger_than_the_screen_and_small_it_is_usable() {
+    let Some(display) = Display::of_size("800x600") else { return };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut sandbox = Sandbox::open(&display, folder.path(), ONE_PARTICLE);
+    let geometry = display.xdotool(&format!("getwindowgeometry {}", sandbox.window));
+    assert!(geometry.contains("Geometry: 800x600"), "{geometry}");
+    // The panels make way for the scene: the particle of 1 m is there, and can be dragged.
+    sandbox.key("p");
+    let before = sandbox.saved(folder.path()).world.bodies().position[0];
+    sandbox.key("p");
+    display.drag([508, 280], [560, 240]);
+    display.xdotool("mouseup 1");
+    let after = sandbox.saved(folder.path()).world.bodies().position[0];
+    assert!(after.distance(before) > 0.2, "{before} became {after}");
+    sandbox.close();
 }
 
 #[test]

@@ -16,15 +16,89 @@ pub const ROPE_WIDTH: [f64; 2] = [1.5, 3.0];
 /// Radius of a pin, and of the bolt of an end fixed to the world [points].
 pub const PIN_RADIUS: f64 = 4.0;
 
-/// Radius of body `index` on the canvas [points].
-pub fn radius(world: &World, index: usize, scale: f64) -> f64 {
-    let bodies = world.bodies();
-    let least = match (bodies.motion[index], bodies.radius[index]) {
-        (Motion::Static, _) => LEAST_BOLT,
-        (_, 0.0) => LEAST_DOT,
-        _ => LEAST_DISC,
-    };
-    (bodies.radius[index] * scale).max(least)
+/// Radius of the bob of a point mass on a link, in parts of its shortest link, and at most [points].
+const BOB: (f64, f64) = (0.25, 8.0);
+/// How many times larger the bob of a heavy one is at most.
+const HEAVIEST_BOB: f64 = 3.0;
+
+/// What is looked up of each body to draw it, gathered once a picture.
+#[derive(Clone, Debug, Default)]
+pub struct Sizes {
+    /// By body: how many rods, ropes, springs and pins hold it.
+    pub links: Vec<u32>,
+    /// By body: length of the shortest rod, rope or spring on a point mass [m], 0 on anything else.
+    shortest: Vec<f64>,
+    /// By body: how many times larger its bob is than that of a middling mass.
+    weight: Vec<f64>,
+}
+
+impl Sizes {
+    /// Those of the bodies of `world`.
+    pub fn of(world: &World) -> Sizes {
+        let mut sizes = Sizes::default();
+        sizes.gather(world);
+        sizes
+    }
+
+    /// The same, in memory that is there.
+    pub fn gather(&mut self, world: &World) {
+        let (bodies, links) = (world.bodies(), world.constraints());
+        self.links.clear();
+        self.links.resize(bodies.len(), 0);
+        self.shortest.clear();
+        self.shortest.resize(bodies.len(), 0.0);
+        for link in 0..links.len() {
+            for body in [links.a[link], links.b[link]].into_iter().filter(|body| *body != WORLD) {
+                let body = body as usize;
+                self.links[body] += 1;
+                let is_bob = bodies.radius[body] == 0.0 && bodies.motion[body] == Motion::Dynamic;
+                if let Some(length) = length(links.kind[link]).filter(|_| is_bob) {
+                    let known = self.shortest[body];
+                    self.shortest[body] = if known > 0.0 { known.min(length) } else { length };
+                }
+            }
+        }
+        self.weigh(world);
+    }
+
+    fn weigh(&mut self, world: &World) {
+        let masses = &world.bodies().mass;
+        self.weight.clear();
+        self.weight.resize(masses.len(), 1.0);
+        let bobs = || (0..masses.len()).filter(|body| self.shortest[*body] > 0.0);
+        let mut sorted: Vec<f64> = bobs().map(|body| masses[body]).collect();
+        if sorted.is_empty() {
+            return;
+        }
+        let middle = (sorted.len() - 1) / 2;
+        let middling = *sorted.select_nth_unstable_by(middle, f64::total_cmp).1;
+        for body in bobs() {
+            // As a ball of the same stuff grows with its mass.
+            self.weight[body] = (masses[body] / middling).cbrt().clamp(1.0, HEAVIEST_BOB);
+        }
+    }
+
+    /// Radius of body `index` on the canvas [points].
+    pub fn radius(&self, world: &World, index: usize, scale: f64) -> f64 {
+        let bodies = world.bodies();
+        if self.shortest[index] > 0.0 {
+            return (BOB.0 * self.shortest[index] * scale).clamp(LEAST_DOT, BOB.1) * self.weight[index];
+        }
+        let least = match (bodies.motion[index], bodies.radius[index]) {
+            (Motion::Static, _) => LEAST_BOLT,
+            (_, 0.0) => LEAST_DOT,
+            _ => LEAST_DISC,
+        };
+        (bodies.radius[index] * scale).max(least)
+    }
+}
+
+/// Length of a link that has one [m].
+fn length(kind: Kind) -> Option<f64> {
+    match kind {
+        Kind::Rod { length } | Kind::Rope { length } | Kind::Spring { rest: length, .. } => Some(length),
+        Kind::Pin => None,
+    }
 }
 
 /// Width of a rod or rope of `length` [m] on the canvas [points].
@@ -32,26 +106,14 @@ pub fn width(length: f64, scale: f64, [least, most]: [f64; 2]) -> f64 {
     (length / 5.0 * scale).clamp(least, most)
 }
 
-/// Counts, by body, how many rods, ropes, springs and pins hold it.
-pub fn count_links(world: &World, counts: &mut Vec<u32>) {
-    counts.clear();
-    counts.resize(world.bodies().len(), 0);
-    let links = world.constraints();
-    for body in links.a.iter().chain(&links.b).filter(|body| **body != WORLD) {
-        counts[*body as usize] += 1;
-    }
-}
-
 /// Whether a link is drawn over the bodies that move: a piece of a chain whose beads hide more than half of it. Any other
-/// lies below them, so that it seems to be fixed to their edges. `counts` are those of [`count_links`].
-pub fn lies_above(world: &World, counts: &[u32], link: usize, scale: f64) -> bool {
+/// lies below them, so that it seems to be fixed to their edges.
+pub fn lies_above(world: &World, sizes: &Sizes, link: usize, scale: f64) -> bool {
     let links = world.constraints();
-    let (Kind::Rod { length } | Kind::Rope { length } | Kind::Spring { rest: length, .. }) = links.kind[link] else {
-        return false;
-    };
-    let is_bead = |body: usize| counts[body] > 1 && world.bodies().motion[body] != Motion::Static;
+    let Some(length) = length(links.kind[link]) else { return false };
+    let is_bead = |body: usize| sizes.links[body] > 1 && world.bodies().motion[body] != Motion::Static;
     let ends = [links.a[link], links.b[link]].into_iter().filter(|body| *body != WORLD).map(|body| body as usize);
-    let hidden: f64 = ends.filter(|body| is_bead(*body)).map(|body| radius(world, body, scale)).sum();
+    let hidden: f64 = ends.filter(|body| is_bead(*body)).map(|body| sizes.radius(world, body, scale)).sum();
     hidden > 0.5 * length * scale
 }
 
@@ -80,25 +142,25 @@ pub fn coil(rest: f64, length: f64, scale: f64) -> Coil {
 }
 
 /// Whether a spring `length` [points] long is drawn as a plain line: too short for a coil, or one of many in a cloth or a
-/// soft body, where coils would hide each other. `counts` are those of [`count_links`].
-pub fn is_plain(world: &World, counts: &[u32], link: usize, length: f64) -> bool {
+/// soft body, where coils would hide each other.
+pub fn is_plain(world: &World, sizes: &Sizes, link: usize, length: f64) -> bool {
     /// A shorter spring is a dash [points].
     const SHORTEST: f64 = 8.0;
     /// Links of a body up to which it is a joint, and beyond which it is a node of a mesh.
     const JOINT: u32 = 3;
     let links = world.constraints();
     let ends = [links.a[link], links.b[link]];
-    length < SHORTEST || ends.into_iter().any(|body| body != WORLD && counts[body as usize] > JOINT)
+    length < SHORTEST || ends.into_iter().any(|body| body != WORLD && sizes.links[body as usize] > JOINT)
 }
 
 /// Half the width that a link takes up on the canvas [points].
-pub fn half_width(world: &World, counts: &[u32], link: usize, scale: f64) -> f64 {
+pub fn half_width(world: &World, sizes: &Sizes, link: usize, scale: f64) -> f64 {
     let (from, to) = world.ends(link);
     let length = from.distance(to) * scale;
     match world.constraints().kind[link] {
         Kind::Rod { length } => width(length, scale, ROD_WIDTH) / 2.0,
         Kind::Rope { length } => width(length, scale, ROPE_WIDTH) / 2.0,
-        Kind::Spring { .. } if is_plain(world, counts, link, length) => ROD_WIDTH[0] / 2.0,
+        Kind::Spring { .. } if is_plain(world, sizes, link, length) => ROD_WIDTH[0] / 2.0,
         Kind::Spring { rest, .. } => coil(rest, length, scale).half_width,
         Kind::Pin => PIN_RADIUS,
     }

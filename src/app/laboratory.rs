@@ -207,6 +207,7 @@ fn spawn(
 ) -> std::io::Result<()> {
     let thread = std::thread::Builder::new().name("lab".into());
     thread.spawn(move || {
+        step_aside();
         match catch_unwind(AssertUnwindSafe(|| work(&bench, &*wake))) {
             Ok((sweep, stage)) => {
                 // Before it is told, so that whoever hears that it has stopped can resume it.
@@ -220,6 +221,15 @@ fn spawn(
         wake();
     })?;
     Ok(())
+}
+
+/// Lets everything else come first: measuring goes by the thread's own time, and can wait.
+fn step_aside() {
+    // On Linux it concerns the calling thread alone; elsewhere it would slow the whole program down.
+    #[cfg(target_os = "linux")]
+    if let Err(error) = rustix::process::nice(5) {
+        log::info!("the lab keeps its priority: {error}");
+    }
 }
 
 /// What the scene is compared with: what is known of it, or a refined run.

@@ -1,7 +1,7 @@
 //! What lies under the pointer: an exact hit first, then the nearest within reach; of several, the smallest on top.
 
 use super::camera::Camera;
-use super::drawn;
+use super::drawn::{self, Sizes};
 use crate::engine::constraint::WORLD;
 use crate::engine::{DVec2, Id, Shape, World};
 
@@ -29,16 +29,55 @@ pub fn item(world: &World, id: Id) -> Option<Item> {
 /// The body, constraint or wall at a canvas point.
 pub fn pick(world: &World, camera: &Camera, canvas: DVec2) -> Option<Id> {
     let point = camera.to_world(canvas);
-    let mut counts = Vec::new();
-    drawn::count_links(world, &mut counts);
-    let links = (0..world.constraints().len()).map(|link| constraint(world, &counts, camera.scale, link, point));
-    let candidates = bodies(world, point).chain(links).chain(walls(world, point));
+    let sizes = Sizes::of(world);
+    let links = (0..world.constraints().len()).map(|link| constraint(world, &sizes, camera.scale, link, point));
+    let candidates = bodies(world, &sizes, camera.scale, point).chain(links).chain(walls(world, point));
     best(candidates, REACH / camera.scale)
 }
 
 /// The body at a canvas point, whatever else is there.
 pub fn pick_body(world: &World, camera: &Camera, canvas: DVec2) -> Option<Id> {
-    best(bodies(world, camera.to_world(canvas)), REACH / camera.scale)
+    best(bodies(world, &Sizes::of(world), camera.scale, camera.to_world(canvas)), REACH / camera.scale)
+}
+
+/// A place on a rod, rope or spring by which it can be held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Handle {
+    pub link: Id,
+    /// The body at the nearer end that can be moved: the one that is held.
+    pub body: Id,
+    /// The end at `body` is the first one.
+    first: bool,
+    /// How far from that end the place is, in parts of the way to the other.
+    along: f64,
+}
+
+impl Handle {
+    /// The end that is held and the place itself [m], as they are now; `None` if the link is gone.
+    pub fn places(&self, world: &World) -> Option<(DVec2, DVec2)> {
+        let (a, b) = world.ends(world.constraints().index_of(self.link)?);
+        let (end, other) = if self.first { (a, b) } else { (b, a) };
+        Some((end, end.lerp(other, self.along)))
+    }
+}
+
+/// The place on the rod, rope or spring at a canvas point, if one lies there that hangs on a body which can be moved.
+pub fn pick_handle(world: &World, camera: &Camera, canvas: DVec2) -> Option<Handle> {
+    let link = pick(world, camera, canvas)?;
+    let links = world.constraints();
+    let index = links.index_of(link)?;
+    let (a, b) = world.ends(index);
+    let way = b - a;
+    let from_a = (camera.to_world(canvas) - a).dot(way) / way.length_squared();
+    if !from_a.is_finite() {
+        return None;
+    }
+    let from_a = from_a.clamp(0.0, 1.0);
+    let ends = [(links.a[index], true, from_a), (links.b[index], false, 1.0 - from_a)];
+    let moves = |body: u32| body != WORLD && world.is_dynamic(body as usize);
+    let movable = ends.into_iter().filter(|(body, ..)| moves(*body));
+    let (body, first, along) = movable.min_by(|a, b| a.2.total_cmp(&b.2))?;
+    Some(Handle { link, body: world.bodies().id[body as usize], first, along })
 }
 
 /// The bodies whose centres, the constraints whose middles and the walls whose bounds lie in a rectangle [m].
@@ -90,10 +129,11 @@ struct Candidate {
     size: f64,
 }
 
-fn bodies(world: &World, point: DVec2) -> impl Iterator<Item = Candidate> {
+/// A body is hit where it is; a point mass where its bob is drawn.
+fn bodies(world: &World, sizes: &Sizes, scale: f64, point: DVec2) -> impl Iterator<Item = Candidate> {
     let bodies = world.bodies();
     (0..bodies.len()).map(move |i| {
-        let radius = bodies.radius[i];
+        let radius = if bodies.radius[i] == 0.0 { sizes.radius(world, i, scale) / scale } else { bodies.radius[i] };
         let distance = point.distance(bodies.position[i]) - radius;
         Candidate { id: bodies.id[i], hit: distance <= 0.0, distance, size: radius }
     })
@@ -101,15 +141,15 @@ fn bodies(world: &World, point: DVec2) -> impl Iterator<Item = Candidate> {
 
 /// A link is hit where its line can be seen. One that lies over the beads of its chain is hit along its middle half and wins
 /// there: the rest is left to the beads.
-fn constraint(world: &World, counts: &[u32], scale: f64, link: usize, point: DVec2) -> Candidate {
+fn constraint(world: &World, sizes: &Sizes, scale: f64, link: usize, point: DVec2) -> Candidate {
     let (from, to) = world.ends(link);
-    let half_width = drawn::half_width(world, counts, link, scale) / scale;
+    let half_width = drawn::half_width(world, sizes, link, scale) / scale;
     let length = from.distance(to);
     let away = |from: DVec2, to: DVec2| Shape::Segment { from, to }.distance(point).0 - half_width;
-    let above = length == 0.0 || drawn::lies_above(world, counts, link, scale);
+    let above = length == 0.0 || drawn::lies_above(world, sizes, link, scale);
     let links = world.constraints();
     let hidden = |body: u32| {
-        let radius = if body == WORLD { 0.0 } else { drawn::radius(world, body as usize, scale) / scale };
+        let radius = if body == WORLD { 0.0 } else { sizes.radius(world, body as usize, scale) / scale };
         (radius / length).min(1.0)
     };
     let [start, end] = if above { [0.25, 0.25] } else { [hidden(links.a[link]), hidden(links.b[link])] };

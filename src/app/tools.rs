@@ -3,7 +3,7 @@
 
 use super::camera::Camera;
 use super::command::{Command, Edit, Spawn};
-use super::pick;
+use super::pick::{self, Handle};
 use crate::engine::{Anchor, Constraint, DVec2, Id, Kind, Motion, Wall, World};
 
 /// What the left button does on the canvas.
@@ -97,6 +97,8 @@ enum Gesture {
     Grip {
         /// What a click there selects: the body held, or what lies over it.
         picked: Id,
+        /// The rod that was grabbed between its ends, and from that place to the end that is held [m].
+        handle: Option<(Handle, DVec2)>,
         pressed: DVec2,
         moved: bool,
     },
@@ -225,6 +227,12 @@ impl Tools {
         camera.zoom_at(canvas, ZOOM_NOTCH.powf(notches));
     }
 
+    /// The place on a rod by which it is held and the pointer that pulls it [m].
+    pub fn rod_held(&self, world: &World) -> Option<(DVec2, DVec2)> {
+        let Gesture::Grip { handle: Some((handle, _)), .. } = self.gesture else { return None };
+        Some((handle.places(world)?.1, self.pointer?))
+    }
+
     /// What to draw of the tool at work.
     pub fn feedback(&self, camera: &Camera) -> Feedback {
         let Some(to) = self.pointer else { return Feedback::None };
@@ -266,14 +274,7 @@ impl Tools {
         let at = snap(event, world, camera, None);
         self.pointer = Some(at);
         match self.tool {
-            Tool::Drag => match pick::pick_body(world, camera, event.canvas) {
-                Some(body) => {
-                    let picked = pick::pick(world, camera, event.canvas).unwrap_or(body);
-                    self.gesture = Gesture::Grip { picked, pressed: event.canvas, moved: false };
-                    return vec![Command::Grab { body, at: free }];
-                }
-                None => self.gesture = Gesture::Box { from: free },
-            },
+            Tool::Drag => return self.take_hold(event.canvas, world, camera),
             Tool::Select => self.gesture = Gesture::Box { from: free },
             Tool::Cut => self.gesture = Gesture::Slash { from: free, cut: free, first: true },
             Tool::Spawn(kind) => return vec![Command::Edit(Edit::Spawn { kind, at, size: spawn_size(camera) })],
@@ -283,6 +284,24 @@ impl Tools {
             }
             Tool::Wall => self.gesture = Gesture::Wall { from: at },
         }
+        Vec::new()
+    }
+
+    /// Takes hold of the body or rod at a canvas point; on empty ground draws a box.
+    fn take_hold(&mut self, pressed: DVec2, world: &World, camera: &Camera) -> Vec<Command> {
+        let at = camera.to_world(pressed);
+        if let Some(body) = pick::pick_body(world, camera, pressed) {
+            let picked = pick::pick(world, camera, pressed).unwrap_or(body);
+            self.gesture = Gesture::Grip { picked, handle: None, pressed, moved: false };
+            return vec![Command::Grab { body, at }];
+        }
+        if let Some(handle) = pick::pick_handle(world, camera, pressed) {
+            let end = handle.places(world).map_or(at, |(end, _)| end);
+            let Handle { link: picked, body, .. } = handle;
+            self.gesture = Gesture::Grip { picked, handle: Some((handle, end - at)), pressed, moved: false };
+            return vec![Command::Grab { body, at: end }];
+        }
+        self.gesture = Gesture::Box { from: at };
         Vec::new()
     }
 
@@ -297,9 +316,11 @@ impl Tools {
             let from = std::mem::replace(cut, camera.to_world(event.canvas));
             return vec![Command::Slash { from, to: *cut, first: std::mem::take(first) }];
         }
-        if let Gesture::Grip { pressed, moved, .. } = &mut self.gesture {
+        if let Gesture::Grip { pressed, moved, handle, .. } = &mut self.gesture {
             *moved |= pressed.distance(event.canvas) > CLICK_REACH;
-            return vec![Command::MoveGrip(camera.to_world(event.canvas))];
+            // Of a rod the end is led, as far from the pointer as it was: led by where the place is now it would never rest.
+            let lead = handle.map_or(DVec2::ZERO, |(_, lead)| lead);
+            return vec![Command::MoveGrip(camera.to_world(event.canvas) + lead)];
         }
         Vec::new()
     }

@@ -2,7 +2,6 @@
 
 use super::colour::{Colour, viridis};
 use super::picture::{DiscStyle, Picture, Scene};
-use crate::app::drawn;
 use crate::engine::{DVec2, Motion, World};
 
 /// The largest speed of a body [m/s].
@@ -24,7 +23,7 @@ pub(super) fn draw_bodies(picture: &mut Picture, scene: &Scene<'_>, mobility: Mo
     let wanted = |index: &usize| (bodies.motion[*index] == Motion::Static) == (mobility == Mobility::Fixed);
     for index in (0..bodies.len()).filter(wanted) {
         let at = scene.view.place(scene.pose.position(index));
-        let radius = drawn::radius(world, index, scene.view.scale);
+        let radius = scene.radius(index);
         if bodies.motion[index] == Motion::Static {
             draw_bolt(picture, scene, at, radius);
         } else {
@@ -68,7 +67,7 @@ fn body_colour(scene: &Scene<'_>, index: usize) -> Colour {
 /// something (a rope, a cloth) is grey, so that the colours of the tension beside it can be read.
 pub(super) fn own_colour(scene: &Scene<'_>, index: usize) -> Colour {
     let bodies = scene.frame.world.bodies();
-    if scene.links[index] > 1 && bodies.spin(index).is_none() {
+    if scene.sizes.links[index] > 1 && bodies.spin(index).is_none() {
         return scene.palette.node;
     }
     let colours = &scene.palette.bodies;

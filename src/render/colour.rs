@@ -103,7 +103,7 @@ const DARK: Palette = Palette {
     hover: Colour::hex(0xE6EAF0),
     contact: Colour::hex(0x4FD6A8),
     velocity: Colour::hex(0xE9C46A),
-    ghost: Colour::hex(0xB694FF),
+    ghost: Colour([0xC9, 0xAE, 0xFF, 0xB8]),
     warning: Colour::hex(0xFF4F64),
     diverging: [
         Colour::hex(0x2F86FF),
@@ -140,7 +140,7 @@ const LIGHT: Palette = Palette {
     hover: Colour::hex(0x20252B),
     contact: Colour::hex(0x0B8A60),
     velocity: Colour::hex(0x8A6100),
-    ghost: Colour::hex(0x7A45D6),
+    ghost: Colour([0x7A, 0x45, 0xD6, 0xC8]),
     warning: Colour::hex(0xC9152E),
     diverging: [
         Colour::hex(0x0A55C4),

@@ -7,15 +7,14 @@ use super::colour::Colour;
 use super::marks::Ends;
 use super::picture::{DiscStyle, Picture, Scene};
 use crate::app::companion::Offsets;
-use crate::app::drawn::{self, ROD_WIDTH};
 use crate::engine::constraint::WORLD;
 use crate::engine::{DVec2, Kind, Motion};
 
 /// How far behind the simulation the truth may be and still be drawn [s]: later the shift would be that of another motion.
 pub const LATEST: f64 = 0.1;
 
-/// How much of what is below is hidden.
-const OPACITY: f64 = 0.5;
+/// Width of its links [points].
+const LINK_WIDTH: f32 = 2.5;
 
 /// Draws the ghost, if the frame has one that is not too late.
 pub(super) fn draw_ghost(picture: &mut Picture, scene: &Scene<'_>) {
@@ -27,13 +26,13 @@ pub(super) fn draw_ghost(picture: &mut Picture, scene: &Scene<'_>) {
         return;
     }
     let ghost = Ghost { scene, offsets: &report.offsets };
-    let colour = scene.palette.ghost.with_opacity(OPACITY);
+    let colour = scene.palette.ghost;
     let links = world.constraints();
     for index in 0..links.len() {
         if links.kind[index] != Kind::Pin {
             let ends = [(links.a[index], links.at_a[index]), (links.b[index], links.at_b[index])];
             let ends = ends.map(|(body, at)| scene.view.place(ghost.point(body, at)));
-            picture.line(&scene.view, ends, ROD_WIDTH[0] as f32, Ends::Square, colour);
+            picture.line(&scene.view, ends, LINK_WIDTH, Ends::Square, colour);
         }
     }
     for index in (0..world.bodies().len()).filter(|index| world.bodies().motion[*index] != Motion::Static) {
@@ -69,7 +68,7 @@ impl Ghost<'_> {
     }
 
     fn draw_body(&self, picture: &mut Picture, body: usize, colour: Colour) {
-        let radius = drawn::radius(&self.scene.frame.world, body, self.scene.view.scale);
+        let radius = self.scene.radius(body);
         let at = self.scene.view.place(self.position(body));
         // Known motions say nothing of angles.
         let turns = !self.offsets.turn.is_empty() && radius > 4.0;

@@ -2,10 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-/// How long the values must stay well below a range before it falls.
-const PATIENCE: Duration = Duration::from_secs(2);
-/// A range falls only if the values would fit into this share of the next lower one.
-const WELL_BELOW: f64 = 0.8;
+/// How long the values must stay well below a range before it falls: longer than a slow swing rests at its turning points.
+const PATIENCE: Duration = Duration::from_secs(8);
+/// A range falls only if the values would fit into this share of it.
+const WELL_BELOW: f64 = 0.25;
+/// A range rises only if a value is more than so many times its top: what swings about a step does not change it.
+const CLEARLY_ABOVE: f64 = 1.05;
 
 /// Upper end of a legend's range: 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,7 +33,8 @@ impl SteadyRange {
         let wanted = step_up(largest);
         let fills = largest.is_finite() && largest >= 0.0 && wanted >= self.top;
         if fills {
-            *self = SteadyRange { top: wanted, low: None };
+            let top = if largest > CLEARLY_ABOVE * self.top { wanted } else { self.top };
+            *self = SteadyRange { top, low: None };
         }
         fills
     }
@@ -44,7 +47,7 @@ impl SteadyRange {
         if self.rise(largest) {
             return;
         }
-        if step_up(largest / WELL_BELOW) >= self.top {
+        if largest > WELL_BELOW * self.top {
             self.low = None;
             return;
         }
@@ -97,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_range_rises_at_once_and_falls_only_after_two_seconds_well_below() {
+    fn a_range_rises_at_once_and_falls_only_after_eight_seconds_well_below() {
         let start = Instant::now();
         let at = |seconds: f64| start + Duration::from_secs_f64(seconds);
         let mut range = SteadyRange::default();
@@ -106,14 +109,33 @@ mod tests {
         range.update(80.0, at(0.1));
         assert_eq!(range.top(), 100.0);
         range.update(3.0, at(0.2));
-        range.update(3.0, at(2.1));
-        assert_eq!(range.top(), 100.0, "not yet two seconds");
-        range.update(45.0, at(2.2));
-        range.update(45.0, at(2.3));
-        assert_eq!(range.top(), 100.0, "45 is not well below 50");
-        range.update(9.0, at(3.0));
-        range.update(3.0, at(5.1));
-        assert_eq!(range.top(), 10.0, "the largest value of the last two seconds counts");
+        range.update(3.0, at(8.1));
+        assert_eq!(range.top(), 100.0, "not yet eight seconds");
+        range.update(45.0, at(8.2));
+        range.update(45.0, at(20.0));
+        assert_eq!(range.top(), 100.0, "45 is not well below 100");
+        range.update(9.0, at(21.0));
+        range.update(3.0, at(29.1));
+        assert_eq!(range.top(), 10.0, "the largest value of the last eight seconds counts");
+    }
+
+    #[test]
+    fn a_range_stays_while_values_swing_about_one_of_its_steps() {
+        let start = Instant::now();
+        for (middle, swing) in [(0.97, 0.08), (1.5, 1.4), (3.5, 1.6), (5.0, 0.2)] {
+            let mut range = SteadyRange::default();
+            // A period of six seconds.
+            let value = |i: u32| middle + swing * (f64::from(i) / 60.0 * std::f64::consts::TAU / 6.0).sin();
+            let mut tops = std::collections::BTreeSet::new();
+            for i in 0..3600 {
+                range.update(value(i), start + Duration::from_secs_f64(f64::from(i) / 60.0));
+                if i >= 360 {
+                    tops.insert(range.top().to_bits());
+                }
+            }
+            assert_eq!(tops.len(), 1, "{middle} ± {swing}: the range changed after the first swing");
+            assert!(middle + swing <= 1.051 * range.top(), "{middle} ± {swing}: {}", range.top());
+        }
     }
 
     #[test]

@@ -52,7 +52,7 @@ pub(super) fn draw_links(picture: &mut Picture, scene: &Scene<'_>, layer: Layer)
 }
 
 fn layer_of(scene: &Scene<'_>, index: usize) -> Layer {
-    let above = drawn::lies_above(&scene.frame.world, scene.links, index, scene.view.scale);
+    let above = drawn::lies_above(&scene.frame.world, scene.sizes, index, scene.view.scale);
     if above { Layer::Above } else { Layer::Below }
 }
 
@@ -131,7 +131,7 @@ fn draw_spring(picture: &mut Picture, scene: &Scene<'_>, index: usize, rest: f64
     let Coil { rest, windings, half_width } = drawn::coil(rest, length, scene.view.scale);
     let wire = (0.2 * half_width).clamp(1.0, 3.0);
     let colour = colour(scene, index);
-    if drawn::is_plain(&scene.frame.world, scene.links, index, length) {
+    if drawn::is_plain(&scene.frame.world, scene.sizes, index, length) {
         picture.line(&scene.view, [from, to], ROD_WIDTH[0] as f32, Ends::Round, colour);
         return;
     }

@@ -20,8 +20,8 @@ pub struct ViewOptions {
     /// Bodies, constraints and walls.
     pub selected: Vec<Id>,
     pub hovered: Option<Id>,
-    /// Where the cursor pulls the grabbed point [m], when the window knows it better than the frame.
-    pub grip_cursor: Option<DVec2>,
+    /// The grabbed point and the cursor that pulls it [m], where they are not those of the body that is held: on a rod.
+    pub grip: Option<(DVec2, DVec2)>,
     /// Marks of the tool in hand.
     pub extra: Vec<Extra>,
 }
@@ -39,7 +39,7 @@ impl Default for ViewOptions {
             ghost: true,
             selected: Vec::new(),
             hovered: None,
-            grip_cursor: None,
+            grip: None,
             extra: Vec::new(),
         }
     }

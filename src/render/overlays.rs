@@ -3,7 +3,7 @@
 use super::marks::Ends;
 use super::options::Extra;
 use super::picture::{DiscStyle, FORCE_TICK, Picture, Scene, VELOCITY_ARROW};
-use crate::app::drawn::{self, LEAST_DOT};
+use crate::app::drawn::LEAST_DOT;
 use crate::engine::{Contact, Motion, World};
 
 /// The largest normal force of a contact [N].
@@ -18,7 +18,7 @@ pub(super) fn draw_contacts(picture: &mut Picture, scene: &Scene<'_>) {
     let contacts = || world.contacts().iter().filter(|contact| touching(contact.normal_force, contact.gap));
     let place = |contact: &Contact| scene.view.place(contact.point + scene.pose.shift(contact.a as usize));
     // Among small discs the marks are small too, so that a pile shows its chains of force.
-    let size = |contact: &Contact| (0.3 * drawn::radius(world, contact.a as usize, scene.view.scale)).clamp(0.75, 2.5);
+    let size = |contact: &Contact| (0.3 * scene.radius(contact.a as usize)).clamp(0.75, 2.5);
     for contact in contacts() {
         let at = place(contact);
         let length = 2.0 * size(contact) + FORCE_TICK * scene.force.share(contact.normal_force);
@@ -57,7 +57,7 @@ pub(super) fn draw_fault(picture: &mut Picture, scene: &Scene<'_>) {
     };
     let at = scene.view.place(scene.pose.position(index));
     for (gap, width) in [(6.0, 2.5), (12.0, 1.0)] {
-        let ring = drawn::radius(world, index, scene.view.scale) + gap;
+        let ring = scene.radius(index) + gap;
         picture.disc(&scene.view, at, ring, DiscStyle::ring(scene.palette.warning, width));
     }
 }
@@ -71,8 +71,9 @@ pub(super) fn draw_grip(picture: &mut Picture, scene: &Scene<'_>) {
     let Some(index) = world.bodies().index_of(grip.body) else {
         return;
     };
-    let held = scene.view.place(scene.pose.point(index as u32, grip.local));
-    let hand = scene.view.place(scene.options.grip_cursor.unwrap_or(grip.target));
+    let own = (scene.pose.point(index as u32, grip.local), grip.target);
+    let (held, hand) = scene.options.grip.unwrap_or(own);
+    let [held, hand] = [held, hand].map(|point| scene.view.place(point));
     let colour = scene.options.theme.diverging(grip.load());
     picture.line(&scene.view, [held, hand], 2.0, Ends::Round, colour);
     picture.disc(&scene.view, held, LEAST_DOT, DiscStyle::plain(colour));

@@ -12,7 +12,8 @@ use super::pose::Pose;
 use super::surroundings::{draw_grid, draw_walls};
 use super::trails::{Trails, draw_trails};
 use super::view::{View, single};
-use crate::app::{Camera, Frame, drawn};
+use crate::app::drawn::Sizes;
+use crate::app::{Camera, Frame};
 use crate::engine::{DVec2, Id, World};
 use std::ops::Range;
 
@@ -47,8 +48,7 @@ pub struct Picture {
 struct Notes {
     /// The selection, ascending.
     selected: Vec<Id>,
-    /// By body: how many rods, ropes, springs and pins hold it.
-    links: Vec<u32>,
+    sizes: Sizes,
 }
 
 impl Notes {
@@ -56,7 +56,7 @@ impl Notes {
         self.selected.clear();
         self.selected.extend_from_slice(&options.selected);
         self.selected.sort_unstable();
-        drawn::count_links(world, &mut self.links);
+        self.sizes.gather(world);
     }
 }
 
@@ -67,8 +67,7 @@ pub(super) struct Scene<'a> {
     pub pose: Pose<'a>,
     pub view: View,
     pub options: &'a ViewOptions,
-    /// By body: how many rods, ropes, springs and pins hold it.
-    pub links: &'a [u32],
+    pub sizes: &'a Sizes,
     selected: &'a [Id],
     pub palette: &'static Palette,
     pub tension: SteadyRange,
@@ -77,6 +76,11 @@ pub(super) struct Scene<'a> {
 }
 
 impl Scene<'_> {
+    /// Radius of body `index` [points].
+    pub(super) fn radius(&self, index: usize) -> f64 {
+        self.sizes.radius(&self.frame.world, index, self.view.scale)
+    }
+
     pub(super) fn is_selected(&self, id: Id) -> bool {
         self.selected.binary_search(&id).is_ok()
     }
@@ -110,7 +114,7 @@ impl Picture {
             pose: Pose::new(frame, alpha),
             view: View::new(camera),
             options,
-            links: &notes.links,
+            sizes: &notes.sizes,
             selected: &notes.selected,
             palette: options.theme.palette(),
             tension,

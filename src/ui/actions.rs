@@ -57,7 +57,10 @@ impl Shell {
             }
             Action::Lab => {
                 (self.state.panels, self.state.plots, self.state.plot) = (true, true, PlotTab::Lab);
+                self.state.plots_panel = Some(true);
             }
+            Action::ToolsPanel => self.show_tools(!(self.state.panels && self.unfolded.tools)),
+            Action::SettingsPanel => self.show_settings(!(self.state.panels && self.unfolded.settings)),
             Action::ToggleTheme => self.state.theme = self.state.theme.other(),
             Action::FullScreen => *scene.full_screen = true,
             Action::Quit => *scene.quit = true,
@@ -89,16 +92,14 @@ impl Shell {
     }
 
     fn act_on_window(&mut self, action: Action) {
+        if matches!(action, Action::OpenByName | Action::Save) {
+            self.state.panels = true;
+            self.show_tools(true);
+        }
         let state = &mut self.state;
         match action {
-            Action::OpenByName => {
-                state.panels = true;
-                state.focus = Some(Field::SceneFilter);
-            }
-            Action::Save => {
-                state.panels = true;
-                state.focus = Some(Field::SavePath);
-            }
+            Action::OpenByName => state.focus = Some(Field::SceneFilter),
+            Action::Save => state.focus = Some(Field::SavePath),
             Action::TogglePanels => state.panels = !state.panels,
             Action::Palette => {
                 state.finder = Some(Finder::default());

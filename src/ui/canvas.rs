@@ -40,7 +40,7 @@ pub fn follow(ui: &Ui, rect: Rect, camera: &mut Camera) {
     if response.dragged() {
         camera.pan(point(response.drag_delta()));
     }
-    let canvas = Canvas { ui, rect, blocked: ui.ctx().any_popup_open() };
+    let canvas = Canvas { ui, rect, covered: &[], blocked: ui.ctx().any_popup_open() };
     for event in ui.input(|input| input.events.clone()) {
         match event {
             Event::MouseWheel { unit, delta, .. } => canvas.wheel(unit, delta.y, &Tools::default(), camera),
@@ -66,10 +66,18 @@ pub fn allocate(ui: &Ui, rect: Rect) -> Response {
 /// What a screen reader says of the canvas; a tooltip would hide the scene.
 const HELP: &str = "The scene. Drag a body to take hold of it, right-click for a menu, turn the wheel to zoom.";
 
-/// Hands the pass's events to the tools. Returns the commands that follow.
-pub fn handle(ui: &Ui, response: &Response, tools: &mut Tools, frame: &Frame, camera: &mut Camera) -> Vec<Command> {
+/// Hands the pass's events to the tools, but for those on what lies over the scene (`covered`). Returns the commands that
+/// follow.
+pub fn handle(
+    ui: &Ui,
+    response: &Response,
+    covered: &[Rect],
+    tools: &mut Tools,
+    frame: &Frame,
+    camera: &mut Camera,
+) -> Vec<Command> {
     let mut commands = Vec::new();
-    let canvas = Canvas { ui, rect: response.rect, blocked: ui.ctx().any_popup_open() };
+    let canvas = Canvas { ui, rect: response.rect, covered, blocked: ui.ctx().any_popup_open() };
     let (events, held, space) =
         ui.input(|input| (input.events.clone(), input.modifiers, input.key_down(egui::Key::Space)));
     let modifiers = |held: egui::Modifiers| Modifiers { shift: held.shift, alt: held.alt, ctrl: held.command, space };
@@ -107,6 +115,7 @@ pub fn handle(ui: &Ui, response: &Response, tools: &mut Tools, frame: &Frame, ca
 struct Canvas<'a> {
     ui: &'a Ui,
     rect: Rect,
+    covered: &'a [Rect],
     /// A menu is open: what happens beside it closes it, and nothing else.
     blocked: bool,
 }
@@ -116,7 +125,8 @@ impl Canvas<'_> {
     fn at(&self, pos: Pos2) -> bool {
         let edge = self.ui.style().interaction.resize_grab_radius_side;
         let on_top = self.ui.ctx().layer_id_at(pos).is_none_or(|layer| layer == self.ui.layer_id());
-        !self.blocked && on_top && self.rect.shrink(edge).contains(pos)
+        let covered = self.covered.iter().any(|rect| rect.contains(pos));
+        !self.blocked && on_top && !covered && self.rect.shrink(edge).contains(pos)
     }
 
     fn pointer(&self) -> Option<Pos2> {

@@ -66,6 +66,15 @@ pub fn status(frame: &Frame, companion: &Companion, colours: &theme::Colours) ->
     (text, colour, tooltip)
 }
 
+/// The distance from the truth in as few words as fit beside a label, and all of them for a tooltip.
+pub fn short_status(frame: &Frame, companion: &Companion, colours: &theme::Colours) -> (String, String) {
+    let (text, _, help) = status(frame, companion, colours);
+    match companion.report().gap {
+        Some(gap) => (format!("{} RMS", format::with_error(gap.rms, gap.uncertainty, "m")), format!("{text}. {help}")),
+        None => (text.clone(), format!("{text}. {help}")),
+    }
+}
+
 fn why_parted(chaotic: bool) -> &'static str {
     if chaotic { "chaotic" } else { "not converged" }
 }

@@ -30,6 +30,8 @@ pub enum Icon {
     Help,
     Search,
     Panels,
+    Left,
+    Right,
     Fit,
     Light,
     Dark,
@@ -95,7 +97,14 @@ impl Pen<'_> {
             | Icon::Chain
             | Icon::Cloth
             | Icon::Pile => self.things(icon),
-            Icon::Help | Icon::Search | Icon::Panels | Icon::Fit | Icon::Light | Icon::Dark => self.signs(icon),
+            Icon::Help
+            | Icon::Search
+            | Icon::Panels
+            | Icon::Left
+            | Icon::Right
+            | Icon::Fit
+            | Icon::Light
+            | Icon::Dark => self.signs(icon),
         }
     }
 
@@ -250,7 +259,13 @@ impl Pen<'_> {
             }
             Icon::Panels => {
                 self.line(&[(0.1, 0.16), (0.9, 0.16), (0.9, 0.84), (0.1, 0.84), (0.1, 0.16)]);
-                self.line(&[(0.36, 0.16), (0.36, 0.84)]);
+                self.line(&[(0.34, 0.16), (0.34, 0.84)]);
+                self.line(&[(0.66, 0.16), (0.66, 0.84)]);
+            }
+            Icon::Left | Icon::Right => {
+                self.line(&[(0.1, 0.16), (0.9, 0.16), (0.9, 0.84), (0.1, 0.84), (0.1, 0.16)]);
+                let x = if icon == Icon::Left { 0.1 } else { 0.6 };
+                self.fill(&[(x, 0.16), (x + 0.3, 0.16), (x + 0.3, 0.84), (x, 0.84)]);
             }
             Icon::Fit => {
                 for (x, y) in [(0.1, 0.1), (0.9, 0.1), (0.1, 0.9), (0.9, 0.9)] {

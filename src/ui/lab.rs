@@ -2,13 +2,13 @@
 //! error or a wanted budget; a click on a point loads its settings.
 
 use super::state::State;
-use super::{format, theme, widgets};
+use super::{format, known, theme, widgets};
 use crate::app::laboratory::Stage;
 use crate::app::{Command, Frame, LabOrder, LabReport};
 use crate::lab::report::mark::{Shape, look};
 use crate::lab::{Family, Front, Point, Setting};
 use egui::{
-    Color32, DragValue, Id, Label, Painter, Pos2, RichText, Role, ScrollArea, Sense, Stroke, TextEdit, Ui, WidgetInfo,
+    Color32, DragValue, Id, Painter, Pos2, RichText, Role, ScrollArea, Sense, Stroke, TextEdit, Ui, WidgetInfo,
 };
 use egui_plot::{GridMark, Line, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points};
 use std::ops::RangeInclusive;
@@ -37,10 +37,20 @@ impl Default for Wanted {
     }
 }
 
-/// Shows the panel.
+/// Shows the panel. It starts by itself on a scene that is not measured yet.
 pub fn show(ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Command>) {
     let report = frame.lab.report();
-    let front = Front::of(&report.points);
+    state.lab_known.follow(&frame.scene.name);
+    let unmeasured = report.scene != frame.scene.name || report.stage == Stage::Idle && report.points.is_empty();
+    if unmeasured && state.lab_known.started != Some(frame.scene.opened) {
+        state.lab_known.started = Some(frame.scene.opened);
+        commands.push(Command::Lab(LabOrder::Start));
+    }
+    let own = report.scene == frame.scene.name && !report.points.is_empty();
+    let known = &state.lab_known.points;
+    // Advice is taken from what is shown.
+    let shown = if own { report.points.as_slice() } else { known };
+    let front = Front::of(shown);
     ui.horizontal_top(|ui| {
         let height = ui.available_height();
         ui.allocate_ui_with_layout(egui::vec2(COLUMN, height), egui::Layout::top_down(egui::Align::Min), |ui| {
@@ -48,30 +58,21 @@ pub fn show(ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Co
             let area = ScrollArea::vertical().id_salt("lab column").auto_shrink(false);
             widgets::scroll(ui, area, |ui| {
                 controls(ui, frame, &report, commands);
-                advice(ui, frame, &report, &front, &mut state.lab, commands);
+                if !own && !known.is_empty() {
+                    note(ui, &known::published_note(known.len()));
+                }
+                advice(ui, frame, shown, &front, &mut state.lab, commands);
                 export(ui, &report, &mut state.lab, commands);
             });
         });
         ui.add_space(2.0 * theme::GRID);
-        if report.points.is_empty() {
-            nothing(ui, &report);
+        if shown.is_empty() {
+            known::show(ui, frame, &report);
         } else {
-            diagram(ui, frame, &report, &front, commands);
+            let faint = if own && report.stage != Stage::Finished { known.as_slice() } else { &[] };
+            diagram(ui, frame, shown, faint, &front, commands);
         }
     });
-}
-
-/// What stands in the diagram's place.
-fn nothing(ui: &mut Ui, report: &LabReport) {
-    let text = match report.stage {
-        Stage::Idle => {
-            "Start measures every method on this scene in the background: speed against error, point by point."
-        }
-        Stage::Refining { .. } => "The reference is computed, the points come after it.",
-        _ => "No point yet.",
-    };
-    let colour = theme::colours(ui).weak;
-    ui.add(Label::new(RichText::new(text).color(colour)).wrap());
 }
 
 fn controls(ui: &mut Ui, frame: &Frame, report: &LabReport, commands: &mut Vec<Command>) {
@@ -131,12 +132,12 @@ fn stage_text(report: &LabReport) -> String {
 fn advice(
     ui: &mut Ui,
     frame: &Frame,
-    report: &LabReport,
+    points: &[Point],
     front: &Front,
     wanted: &mut Wanted,
     commands: &mut Vec<Command>,
 ) {
-    if report.points.is_empty() {
+    if points.is_empty() {
         return;
     }
     let help = "Wanted error, in parts of the scene's length. Drag, or click to type.";
@@ -152,7 +153,7 @@ fn advice(
     note(ui, &front.advice_for_budget(wanted.budget));
     let best = front.best_within(wanted.budget).filter(|_| use_it);
     commands.extend(best.map(|point| load(point, frame)));
-    if let Some(gain) = front.gain(&report.points, Setting::BASELINE) {
+    if let Some(gain) = front.gain(points, Setting::BASELINE) {
         note(ui, &gain.sentence());
     }
 }
@@ -222,32 +223,37 @@ fn place(point: &Point) -> Option<[f64; 2]> {
     Some([point.cpu_us_per_second.log10(), error.max(SMALLEST).log10()])
 }
 
-fn diagram(ui: &mut Ui, frame: &Frame, report: &LabReport, front: &Front, commands: &mut Vec<Command>) {
+/// The points, and faintly behind them those that were published.
+fn diagram(ui: &mut Ui, frame: &Frame, points: &[Point], faint: &[Point], front: &Front, commands: &mut Vec<Command>) {
     let places: Vec<(usize, [f64; 2])> =
-        report.points.iter().enumerate().filter_map(|(index, point)| Some((index, place(point)?))).collect();
+        points.iter().enumerate().filter_map(|(index, point)| Some((index, place(point)?))).collect();
     ui.vertical(|ui| {
-        legend(ui, report);
+        legend(ui, points);
         let colours = theme::colours(ui);
-        let bounds = [0, 1].map(|axis| whole_decades(places.iter().map(|(_, place)| place[axis])));
+        let all = || points.iter().chain(faint).filter_map(place);
+        let bounds = [0, 1].map(|axis| whole_decades(all().map(|place| place[axis])));
         let response = plot(&colours).show(ui, |plot| {
             let [x, y] = bounds;
             plot.set_plot_bounds(PlotBounds::from_min_max([x[0], y[0]], [x[1], y[1]]));
+            let behind: Vec<[f64; 2]> = faint.iter().filter_map(place).collect();
+            let marks = Points::new("Published", PlotPoints::new(behind)).radius(2.0).allow_hover(false);
+            plot.points(marks.color(colours.weak.gamma_multiply(0.5)));
             let line: Vec<[f64; 2]> = front.points().iter().filter_map(place).collect();
             plot.line(Line::new("Front", PlotPoints::new(line)).color(colours.strong).width(2.0).allow_hover(false));
             for family in Family::ALL {
-                marks(plot, &colours, report, front, family);
+                marks_of(plot, &colours, points, front, family);
             }
         });
-        hover(ui, frame, report, &places, &response, commands);
+        hover(ui, frame, points, &places, &response, commands);
     });
 }
 
 /// The points of a family, those on the front larger and brighter.
-fn marks<'a>(plot: &mut PlotUi<'a>, colours: &theme::Colours, report: &LabReport, front: &Front, family: Family) {
+fn marks_of<'a>(plot: &mut PlotUi<'a>, colours: &theme::Colours, points: &[Point], front: &Front, family: Family) {
     let (shape, filled, colour) = look(family);
     for (on_front, radius, brightness) in [(false, 3.5, 0.65), (true, 5.5, 1.0)] {
         let wanted = |point: &&Point| point.method == family && front.contains(point) == on_front;
-        let own: Vec<[f64; 2]> = report.points.iter().filter(wanted).filter_map(place).collect();
+        let own: Vec<[f64; 2]> = points.iter().filter(wanted).filter_map(place).collect();
         let colour = family_colour(colours, colour).gamma_multiply(brightness);
         let marks = Points::new(family.name(), PlotPoints::new(own)).shape(marker(shape)).filled(filled);
         plot.points(marks.color(colour).radius(radius).allow_hover(false));
@@ -264,12 +270,11 @@ fn whole_decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// The families that have a point, with their marks, in a row that wraps.
-fn legend(ui: &mut Ui, report: &LabReport) {
+fn legend(ui: &mut Ui, points: &[Point]) {
     let colours = theme::colours(ui);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = egui::vec2(3.0 * theme::GRID, 0.0);
-        for family in Family::ALL.into_iter().filter(|family| report.points.iter().any(|point| point.method == *family))
-        {
+        for family in Family::ALL.into_iter().filter(|family| points.iter().any(|point| point.method == *family)) {
             let (shape, filled, colour) = look(family);
             let font = egui::FontId::proportional(theme::SMALL);
             let words = ui.painter().layout_no_wrap(family.name(), font, colours.weak);
@@ -321,7 +326,7 @@ fn paint_mark(painter: &Painter, at: Pos2, shape: Shape, filled: bool, colour: C
 fn hover(
     ui: &Ui,
     frame: &Frame,
-    report: &LabReport,
+    points: &[Point],
     places: &[(usize, [f64; 2])],
     response: &PlotResponse<()>,
     commands: &mut Vec<Command>,
@@ -333,7 +338,7 @@ fn hover(
     };
     let nearest = places.iter().map(|(index, place)| (*index, distance(place))).min_by(|a, b| a.1.total_cmp(&b.1));
     let Some((index, _)) = nearest.filter(|(_, distance)| *distance <= REACH) else { return };
-    let point = &report.points[index];
+    let point = &points[index];
     ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
     response.response.clone().on_hover_text_at_pointer(explain(point));
     if response.response.clicked() {

@@ -2,6 +2,7 @@
 //! graphics device; the scene itself is drawn below, in the rectangle that [`ShellOutput::canvas`] names.
 
 mod actions;
+mod away;
 mod badge;
 mod canvas;
 mod companions;
@@ -12,6 +13,7 @@ pub mod format;
 mod help;
 mod icon;
 mod inspector;
+mod known;
 pub mod lab;
 mod overlay;
 mod palette;

@@ -147,6 +147,11 @@ impl Plots {
         }
     }
 
+    /// The tabs alone, in a low window: a click on one unfolds its plot.
+    pub fn show_folded(&mut self, ui: &mut Ui, state: &mut State) {
+        ui.horizontal_centered(|ui| tabs(ui, state));
+    }
+
     fn energy(&mut self, ui: &mut Ui, frame: &Frame) {
         let curves = Curves::of(frame, Fold::Mean, |sample| energies(&sample.measures));
         // Before the first step there is no sample yet, but there are energies.
@@ -329,7 +334,9 @@ fn tabs(ui: &mut Ui, state: &mut State) {
     for tab in PlotTab::ALL {
         let response = ui.selectable_label(state.plot == tab, tab.name()).on_hover_text(tab.help());
         if response.clicked() {
-            state.plot = tab;
+            // A second click on a tab folds the plots away, and the next unfolds them.
+            let folded = state.plot == tab && state.plots_panel == Some(true);
+            (state.plot, state.plots_panel) = (tab, Some(!folded));
         }
     }
 }

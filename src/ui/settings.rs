@@ -306,7 +306,7 @@ fn outcome(ui: &mut Ui, frame: &Frame) {
         widgets::reading(ui, "Local error", estimate, help);
     }
     if let Some(truth) = &frame.companions.truth {
-        let (text, _, help) = companions::status(frame, truth, &theme::colours(ui));
+        let (text, help) = companions::short_status(frame, truth, &theme::colours(ui));
         widgets::reading(ui, "Off truth", text, &help);
     }
 }

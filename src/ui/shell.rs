@@ -9,8 +9,8 @@ use super::state::{Field, PlotTab, State};
 use super::theme::{self, Theme};
 use super::turns::{Reader, Turns};
 use super::{
-    canvas, companions, fault, finder, help, inspector, overlay, palette, scenes, settings, status, transport, view,
-    widgets,
+    away, canvas, companions, fault, finder, help, inspector, overlay, palette, scenes, settings, status, transport,
+    view, widgets,
 };
 use crate::app::{Action, Camera, Command, Feedback, Frame, Spawn, Tools};
 use crate::engine::{DVec2, Id, Method};
@@ -21,6 +21,22 @@ use std::sync::Arc;
 
 /// Narrower plots would only be legends [points].
 const NARROWEST_PLOT: f32 = 320.0;
+/// From this width both panels have room beside the scene; from the other one the tools alone [points].
+const ROOM_FOR_BOTH: f32 = 1000.0;
+const ROOM_FOR_TOOLS: f32 = 640.0;
+/// From this height the plots have room below the scene; in a lower window only their tabs are shown [points].
+const ROOM_FOR_PLOTS: f32 = 680.0;
+
+/// Which panels a window has room for, or the user wants in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Unfolded {
+    pub tools: bool,
+    pub settings: bool,
+    pub plots: bool,
+    /// Only one of the two panels has room.
+    pub narrow: bool,
+    pub low: bool,
+}
 
 /// A field that was not drawn within so many passes has no place in this window.
 const MOST_AWAITED: u32 = 60;
@@ -53,6 +69,8 @@ pub struct Shell {
     /// For how many passes an opened field has not been drawn.
     awaited: u32,
     note: fault::Shown,
+    /// The panels that were shown last.
+    pub(super) unfolded: Unfolded,
     /// The key of slow motion is held.
     slow: bool,
 }
@@ -126,6 +144,7 @@ impl Shell {
         if std::mem::replace(&mut self.slow, slow) != slow {
             commands.push(Command::Slow(slow));
         }
+        self.unfold(ui.available_size());
         if self.state.panels {
             self.panels(ui, frame, &mut actions, &mut commands);
         }
@@ -143,8 +162,43 @@ impl Shell {
         self.note_placed(frame, &commands);
         self.prepare(ui.ctx());
         self.give_turn(ui.ctx());
-        let view = self.view_options(camera);
+        let view = self.view_options(frame, camera);
         ShellOutput { commands, canvas: canvas.rect, rival: canvas.rival, view, full_screen, quit }
+    }
+
+    /// Folds the panels that a small window has no room for. What the user folds or unfolds holds until the window is another.
+    fn unfold(&mut self, room: egui::Vec2) {
+        let (narrow, low) = (room.x < ROOM_FOR_BOTH, room.y < ROOM_FOR_PLOTS);
+        let state = &mut self.state;
+        if narrow != self.unfolded.narrow {
+            (state.tools_panel, state.settings_panel) = (None, None);
+        }
+        if low != self.unfolded.low {
+            state.plots_panel = None;
+        }
+        self.unfolded = Unfolded {
+            tools: state.tools_panel.unwrap_or(room.x >= ROOM_FOR_TOOLS),
+            settings: state.settings_panel.unwrap_or(!narrow),
+            plots: state.plots_panel.unwrap_or(!low),
+            narrow,
+            low,
+        };
+    }
+
+    /// Shows or hides the tools; where there is room for one panel only, the other one makes way.
+    pub(super) fn show_tools(&mut self, on: bool) {
+        self.state.tools_panel = Some(on);
+        if on && self.unfolded.narrow {
+            self.state.settings_panel = Some(false);
+        }
+    }
+
+    /// The same for the settings.
+    pub(super) fn show_settings(&mut self, on: bool) {
+        self.state.settings_panel = Some(on);
+        if on && self.unfolded.narrow {
+            self.state.tools_panel = Some(false);
+        }
     }
 
     /// Settles who reads the keyboard next.
@@ -227,36 +281,43 @@ impl Shell {
             egui::Frame::NONE.fill(colours.panel).inner_margin(Margin::symmetric(horizontal, vertical))
         };
         Panel::top("transport").exact_size(theme::TOP_BAR).frame(plate(12, 0)).show(ui, |ui| {
-            transport::show(ui, frame, &mut self.state.theme, actions, commands);
+            transport::show(ui, frame, &mut self.state.theme, self.unfolded, actions, commands);
         });
         Panel::bottom("status")
             .exact_size(theme::ROW + theme::GRID)
             .frame(plate(12, 0))
             .show(ui, |ui| status::show(ui, frame, self.tools.selection()));
-        Panel::left("tools").default_size(216.0).size_range(180.0..=360.0).frame(plate(12, 8)).show(ui, |ui| {
-            widgets::scroll(ui, ScrollArea::vertical().auto_shrink(false), |ui| {
-                palette::show(ui, self.tools.tool(), actions);
-                scenes::show(ui, frame, self.scenes, &mut self.state, commands);
+        if self.unfolded.tools {
+            Panel::left("tools").default_size(216.0).size_range(180.0..=360.0).frame(plate(12, 8)).show(ui, |ui| {
+                widgets::scroll(ui, ScrollArea::vertical().auto_shrink(false), |ui| {
+                    palette::show(ui, self.tools.tool(), actions);
+                    scenes::show(ui, frame, self.scenes, &mut self.state, commands);
+                });
             });
-        });
-        Panel::right("settings").default_size(304.0).size_range(272.0..=480.0).frame(plate(12, 8)).show(ui, |ui| {
-            widgets::scroll(ui, ScrollArea::vertical().auto_shrink(false), |ui| {
-                inspector::show(ui, frame, self.tools.selection(), commands);
-                settings::show(ui, frame, &self.defaults, commands);
-                companions::rival_section(ui, frame, &mut self.state);
-                view::show(ui, frame, &mut self.state);
-            });
-        });
-        if self.state.plots && ui.available_width() >= NARROWEST_PLOT {
-            // The lab's diagram wants more room than a curve.
-            let (id, height) = if self.state.plot == PlotTab::Lab { ("lab", 320.0) } else { ("plots", 176.0) };
-            Panel::bottom(id).resizable(true).default_size(height).size_range(112.0..=480.0).frame(plate(12, 8)).show(
-                ui,
-                |ui| {
-                    self.plots.show(ui, frame, &mut self.state, commands);
-                },
-            );
         }
+        if self.unfolded.settings {
+            Panel::right("settings").default_size(304.0).size_range(272.0..=480.0).frame(plate(12, 8)).show(ui, |ui| {
+                widgets::scroll(ui, ScrollArea::vertical().auto_shrink(false), |ui| {
+                    inspector::show(ui, frame, self.tools.selection(), commands);
+                    settings::show(ui, frame, &self.defaults, commands);
+                    companions::rival_section(ui, frame, &mut self.state);
+                    view::show(ui, frame, &mut self.state);
+                });
+            });
+        }
+        if !self.state.plots || ui.available_width() < NARROWEST_PLOT {
+            return;
+        }
+        if !self.unfolded.plots {
+            let folded = Panel::bottom("folded plots").exact_size(theme::ROW + 2.0 * theme::GRID).frame(plate(12, 4));
+            folded.show(ui, |ui| self.plots.show_folded(ui, &mut self.state));
+            return;
+        }
+        // The lab's diagram wants more room than a curve.
+        let (id, height) = if self.state.plot == PlotTab::Lab { ("lab", 320.0) } else { ("plots", 176.0) };
+        let range = if self.unfolded.low { 112.0..=300.0 } else { 112.0..=480.0 };
+        let panel = Panel::bottom(id).resizable(true).default_size(height).size_range(range).frame(plate(12, 8));
+        panel.show(ui, |ui| self.plots.show(ui, frame, &mut self.state, commands));
     }
 
     fn canvas(
@@ -284,15 +345,18 @@ impl Shell {
         if let Some(rival) = rival {
             canvas::follow(ui, rival, camera);
         }
-        let commands = canvas::handle(ui, &response, &mut self.tools, frame, camera);
+        let arrows = away::arrows(frame, camera, rect);
+        let covered: Vec<Rect> = arrows.iter().map(away::Arrow::rect).collect();
+        let commands = canvas::handle(ui, &response, &covered, &mut self.tools, frame, camera);
         canvas::context_menu(&response, &mut self.tools, frame, camera, actions);
         canvas::decorate(ui, &response, &self.tools);
-        let overlay = self.state.overlay(frame, camera, ranges);
-        overlay.paint(ui, rect);
+        self.state.overlay(frame, camera, ranges).paint(ui, rect);
         if frame.world.bodies().is_empty() && frame.world.walls().is_empty() {
             overlay::hint(ui, rect);
         }
+        away::show(ui, &arrows, camera);
         let hovered = self.tools.hovered().filter(|_| !self.tools.busy());
+        let overlay = self.state.overlay(frame, camera, ranges);
         overlay.selection_label(ui, rect, self.tools.selection(), hovered);
         overlay.read_out(ui, rect, hovered, response.hover_pos());
         if let (Some(beside), Some(companion)) = (rival, &frame.companions.rival) {
@@ -312,7 +376,7 @@ impl Shell {
         }
     }
 
-    fn view_options(&self, camera: &Camera) -> ViewOptions {
+    fn view_options(&self, frame: &Frame, camera: &Camera) -> ViewOptions {
         let view = self.state.view;
         ViewOptions {
             theme: self.state.theme.scene(),
@@ -325,7 +389,7 @@ impl Shell {
             ghost: view.ghost,
             selected: self.tools.selection().to_vec(),
             hovered: self.tools.hovered(),
-            grip_cursor: None,
+            grip: self.tools.rod_held(&frame.world),
             extra: extras(self.tools.feedback(camera)),
         }
     }

@@ -1,5 +1,6 @@
 //! What a user sets in the window itself: theme, panels, what is drawn, what is typed. None of it touches the simulation.
 
+use super::known::Known;
 use super::lab::Wanted;
 use super::theme::Theme;
 use crate::app::keys::Shown;
@@ -97,6 +98,10 @@ pub struct State {
     /// All panels at once, for Tab.
     pub panels: bool,
     pub plots: bool,
+    /// The tools and the settings at the sides and the plots below, where the user wants it otherwise than the window has room.
+    pub tools_panel: Option<bool>,
+    pub settings_panel: Option<bool>,
+    pub plots_panel: Option<bool>,
     pub plot: PlotTab,
     /// The violation plot's axis in powers of ten.
     pub plot_log: bool,
@@ -109,6 +114,8 @@ pub struct State {
     pub verdicts: BTreeMap<String, Arc<Verdict>>,
     /// What the lab is to give advice for.
     pub lab: Wanted,
+    /// What the lab knows of the open scene before it is measured.
+    pub lab_known: Known,
     pub scene_filter: String,
     /// Opening of the scene that was last brought into sight in the list.
     pub listed: Option<u64>,
@@ -124,6 +131,9 @@ impl Default for State {
             theme: Theme::default(),
             panels: true,
             plots: true,
+            tools_panel: None,
+            settings_panel: None,
+            plots_panel: None,
             plot: PlotTab::default(),
             plot_log: true,
             view: View::default(),
@@ -131,6 +141,7 @@ impl Default for State {
             rival_method: None,
             verdicts: BTreeMap::new(),
             lab: Wanted::default(),
+            lab_known: Known::default(),
             scene_filter: String::new(),
             listed: None,
             save_path: "my scene.ron".into(),

@@ -2,14 +2,28 @@
 
 use super::actions::SPEEDS;
 use super::icon::Icon;
+use super::shell::Unfolded;
 use super::theme::{self, Theme};
 use super::widgets::icon_button;
 use super::{draft, format};
 use crate::app::{Action, Command, Frame};
 use egui::{Align, DragValue, Label, Layout, RichText, Sense, Ui};
 
+/// From this width the bar has room for the speed in words, and from the other one for the buttons that have a key anyway
+/// [points].
+const ROOM_FOR_SPEED: f32 = 740.0;
+const ROOM_FOR_ALL: f32 = 620.0;
+
 /// Shows the bar; what was pressed goes to `actions`.
-pub fn show(ui: &mut Ui, frame: &Frame, theme: &mut Theme, actions: &mut Vec<Action>, commands: &mut Vec<Command>) {
+pub fn show(
+    ui: &mut Ui,
+    frame: &Frame,
+    theme: &mut Theme,
+    unfolded: Unfolded,
+    actions: &mut Vec<Action>,
+    commands: &mut Vec<Command>,
+) {
+    let small = ui.available_width() < ROOM_FOR_ALL;
     ui.horizontal_centered(|ui| {
         let (icon, name) = if frame.running { (Icon::Pause, "Pause") } else { (Icon::Run, "Run") };
         act(ui, icon, name, Action::ToggleRun, frame.running, true, actions);
@@ -20,7 +34,7 @@ pub fn show(ui: &mut Ui, frame: &Frame, theme: &mut Theme, actions: &mut Vec<Act
         gap(ui);
         history(ui, frame, actions);
         gap(ui);
-        title(ui, frame);
+        title(ui, frame, if small { 5.0 } else { 7.0 });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             act(ui, Icon::Help, "Help", Action::Help, false, true, actions);
             act(ui, Icon::Search, "Find an action", Action::Palette, false, true, actions);
@@ -28,11 +42,17 @@ pub fn show(ui: &mut Ui, frame: &Frame, theme: &mut Theme, actions: &mut Vec<Act
                 Theme::Dark => (Icon::Light, "Light theme"),
                 Theme::Light => (Icon::Dark, "Dark theme"),
             };
-            if icon_button(ui, icon, name, &Action::ToggleTheme.tooltip(), false, true).clicked() {
+            if !small && icon_button(ui, icon, name, &Action::ToggleTheme.tooltip(), false, true).clicked() {
                 *theme = theme.other();
             }
             act(ui, Icon::Panels, "Hide panels", Action::TogglePanels, false, true, actions);
-            act(ui, Icon::Fit, "Fit all", Action::FitAll, false, true, actions);
+            let name = if unfolded.settings { "Fold settings" } else { "Unfold settings" };
+            act(ui, Icon::Right, name, Action::SettingsPanel, false, true, actions);
+            let name = if unfolded.tools { "Fold tools" } else { "Unfold tools" };
+            act(ui, Icon::Left, name, Action::ToolsPanel, false, true, actions);
+            if !small {
+                act(ui, Icon::Fit, "Fit all", Action::FitAll, false, true, actions);
+            }
         });
     });
 }
@@ -77,6 +97,10 @@ fn speed(ui: &mut Ui, frame: &Frame, actions: &mut Vec<Action>, commands: &mut V
         commands.push(Command::Speed(wanted));
     }
     act(ui, Icon::Faster, "Faster", Action::Faster, false, true, actions);
+    // The status bar says the same.
+    if ui.max_rect().width() < ROOM_FOR_SPEED {
+        return;
+    }
     let (text, colour) = achieved(ui, frame);
     let label = Label::new(RichText::new(text).color(colour)).sense(Sense::hover());
     ui.add_sized([104.0, theme::ROW], label)
@@ -114,12 +138,12 @@ fn history(ui: &mut Ui, frame: &Frame, actions: &mut Vec<Action>) {
     }
 }
 
-fn title(ui: &mut Ui, frame: &Frame) {
+fn title(ui: &mut Ui, frame: &Frame, buttons: f32) {
     let colours = theme::colours(ui);
     let scene = &frame.scene;
     let name = if scene.title.is_empty() { &scene.name } else { &scene.title };
     // The buttons at the right keep their room.
-    let room = (ui.available_width() - 5.0 * (theme::ICON_BUTTON + theme::GRID) - 4.0 * theme::GRID).max(0.0);
+    let room = (ui.available_width() - buttons * (theme::ICON_BUTTON + theme::GRID) - 4.0 * theme::GRID).max(0.0);
     // Less would only show the beginning of a word.
     const LEAST: f32 = 64.0;
     if room < LEAST {

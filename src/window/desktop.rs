@@ -68,7 +68,8 @@ impl Desktop {
         setup: JoinHandle<Result<Setup, SceneError>>,
     ) -> anyhow::Result<Sandbox> {
         // Invisible until the screen reader is connected, which must not happen to a visible window.
-        let attributes = Window::default_attributes().with_title("Tautline").with_inner_size(SIZE).with_visible(false);
+        let size = fitting(event_loop);
+        let attributes = Window::default_attributes().with_title("Tautline").with_inner_size(size).with_visible(false);
         let window = Arc::new(event_loop.create_window(attributes).context("no window can be opened")?);
         let egui = egui::Context::default();
         let display = event_loop.owned_display_handle();
@@ -93,7 +94,7 @@ impl Desktop {
             screen,
             session,
             shell,
-            camera: Camera { centre: DVec2::ZERO, scale: 100.0, size: DVec2::new(SIZE.width, SIZE.height) },
+            camera: Camera { centre: DVec2::ZERO, scale: 100.0, size: DVec2::new(size.width, size.height) },
             drawn: Instant::now(),
             title: String::new(),
         })
@@ -102,6 +103,17 @@ impl Desktop {
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: anyhow::Error) {
         self.failure = Some(error);
         event_loop.exit();
+    }
+}
+
+/// The size of a new window: never larger than the screen [points].
+fn fitting(event_loop: &ActiveEventLoop) -> LogicalSize<f64> {
+    let monitor = event_loop.primary_monitor().or_else(|| event_loop.available_monitors().next());
+    let screen = monitor.map(|monitor| monitor.size().to_logical::<f64>(monitor.scale_factor()));
+    // A monitor that tells nothing of itself has no size at all.
+    match screen.filter(|screen| screen.width >= 1.0 && screen.height >= 1.0) {
+        Some(screen) => LogicalSize::new(SIZE.width.min(screen.width), SIZE.height.min(screen.height)),
+        None => SIZE,
     }
 }
 

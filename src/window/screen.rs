@@ -42,7 +42,7 @@ impl Beside {
         // At another step it is shown as it is: between its own last two it would be later still.
         let share = if frame.world.tick() == view.frame.world.tick() { view.share } else { 1.0 };
         self.picture.borrow_ranges(first);
-        let options = ViewOptions { extra: Vec::new(), grip_cursor: None, ..view.options.clone() };
+        let options = ViewOptions { extra: Vec::new(), grip: None, ..view.options.clone() };
         self.picture.build(frame, view.camera, &options, share);
         self.scene.prepare(&gpu.device, &gpu.queue, &self.picture, &viewport(canvas, size, scale));
     }
