@@ -1293,6 +1293,20 @@ fn the_lab_starts_by_itself_once_a_scene_and_shows_what_is_known_of_it_meanwhile
 }
 
 #[test]
+fn in_a_small_window_the_lab_stays_below_the_scene() {
+    let mut harness =
+        builder().with_size(vec2(800.0, 600.0)).build_ui_state(show, Desk::new(measured(LabStage::Stopped)));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
+    harness.run();
+    let canvas = harness.state().canvas;
+    let tab = harness.get_by_label("Step time").rect();
+    assert!(canvas.height() >= 200.0 && tab.top() >= canvas.bottom(), "{tab:?} below {canvas:?}");
+    // The status bar is 28 points high.
+    let start = harness.get_by_label("Start anew").rect();
+    assert!(start.top() > tab.bottom() && start.bottom() < 572.0, "{start:?}");
+}
+
+#[test]
 fn the_lab_says_what_to_use_and_a_click_on_a_point_loads_its_settings() {
     let mut harness = harness(measured(LabStage::Finished));
     harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
@@ -1524,7 +1538,19 @@ struct Album(SnapshotResults);
 
 impl Album {
     fn add(&mut self, name: &str, frame: Frame, pixels_per_point: f32, prepare: impl FnOnce(&mut Harness<'_, Desk>)) {
-        let builder = builder().with_pixels_per_point(pixels_per_point).with_render_cursor(false).wgpu();
+        self.add_sized(name, frame, SIZE, pixels_per_point, prepare);
+    }
+
+    fn add_sized(
+        &mut self,
+        name: &str,
+        frame: Frame,
+        size: egui::Vec2,
+        pixels_per_point: f32,
+        prepare: impl FnOnce(&mut Harness<'_, Desk>),
+    ) {
+        let builder = builder().with_size(size).with_pixels_per_point(pixels_per_point);
+        let builder = builder.with_render_cursor(false).wgpu();
         let mut harness = builder.build_ui_state(show, Desk::new(frame));
         prepare(&mut harness);
         harness.run();
@@ -1556,6 +1582,16 @@ fn the_shell_looks_as_it_did() {
     });
     album.add("shell_lab", measured(LabStage::Measuring), 1.0, |harness| {
         harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
+    });
+    // The published points change with every measurement; a scene that has none shows itself.
+    album.add("shell_lab_known", by_accuracy(), 1.0, |harness| {
+        harness.state_mut().shell.state_mut().plot = PlotTab::Lab;
+    });
+    album.add_sized("shell_small", by_accuracy(), vec2(800.0, 600.0), 1.0, |_| {});
+    album.add_sized("shell_small_settings", by_accuracy(), vec2(800.0, 600.0), 1.0, |harness| {
+        let state = harness.state_mut().shell.state_mut();
+        (state.theme, state.plots_panel, state.plot) = (Theme::Light, Some(true), PlotTab::LocalError);
+        harness.key_press(Key::I);
     });
     album.add("shell_help", bridge(), 1.0, |harness| harness.key_press(Key::F1));
     album.add("shell_finder", bridge(), 1.0, |harness| {

@@ -15,6 +15,8 @@ use std::ops::RangeInclusive;
 
 /// Width of the column beside the diagram [points].
 const COLUMN: f32 = 300.0;
+/// Height of the marks' names above the diagram at most [points].
+const LEGEND: f32 = 48.0;
 /// How near the pointer has to be to a point [points].
 const REACH: f32 = 12.0;
 /// An error of zero is drawn as this: below anything that a double resolves of a length.
@@ -52,9 +54,9 @@ pub fn show(ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Co
     let shown = if own { report.points.as_slice() } else { known };
     let front = Front::of(shown);
     ui.horizontal_top(|ui| {
-        let height = ui.available_height();
-        ui.allocate_ui_with_layout(egui::vec2(COLUMN, height), egui::Layout::top_down(egui::Align::Min), |ui| {
-            ui.set_width(COLUMN);
+        let size = egui::vec2(COLUMN.min(0.45 * ui.available_width()), ui.available_height());
+        ui.allocate_ui_with_layout(size, egui::Layout::top_down(egui::Align::Min), |ui| {
+            ui.set_width(size.x);
             let area = ScrollArea::vertical().id_salt("lab column").auto_shrink(false);
             widgets::scroll(ui, area, |ui| {
                 controls(ui, frame, &report, commands);
@@ -98,7 +100,7 @@ fn controls(ui: &mut Ui, frame: &Frame, report: &LabReport, commands: &mut Vec<C
         let text = format!("{} of {}, {:.0} s left", progress.done, progress.total, progress.seconds_left.ceil());
         let colours = theme::colours(ui);
         let text = RichText::new(text).color(colours.strong);
-        let bar = egui::ProgressBar::new(part).desired_width(COLUMN - 4.0 * theme::GRID).text(text);
+        let bar = egui::ProgressBar::new(part).desired_width(ui.available_width() - 4.0 * theme::GRID).text(text);
         let bar = bar.fill(colours.accent.gamma_multiply(0.6)).corner_radius(theme::GRID);
         ui.add(bar).on_hover_text("Settings tried so far, of all, and an estimate of the time that the rest takes.");
     }
@@ -228,7 +230,9 @@ fn diagram(ui: &mut Ui, frame: &Frame, points: &[Point], faint: &[Point], front:
     let places: Vec<(usize, [f64; 2])> =
         points.iter().enumerate().filter_map(|(index, point)| Some((index, place(point)?))).collect();
     ui.vertical(|ui| {
-        legend(ui, points);
+        // In a small window the names are scrolled, so that the diagram keeps its room.
+        let area = ScrollArea::vertical().id_salt("lab legend").max_height(LEGEND).auto_shrink([false, true]);
+        widgets::scroll(ui, area, |ui| legend(ui, points));
         let colours = theme::colours(ui);
         let all = || points.iter().chain(faint).filter_map(place);
         let bounds = [0, 1].map(|axis| whole_decades(all().map(|place| place[axis])));

@@ -198,11 +198,18 @@ impl Overlay<'_> {
 
 /// What to do with a scene in which there is nothing yet.
 pub fn hint(ui: &mut Ui, canvas: Rect) {
-    const WORDS: &str = "Nothing is here yet.\nPress a key 1 … 7, or choose something under Add, and click here to place it.\n\
-                         W draws a wall, J, K and L join. Ctrl-O opens a scene.";
-    let size = vec2((canvas.width() - 8.0 * theme::GRID).clamp(1.0, 420.0), 80.0);
-    let words = RichText::new(WORDS).color(theme::colours(ui).weak);
-    ui.put(Rect::from_center_size(canvas.center(), size), Label::new(words).wrap().halign(Align::Center));
+    const LINES: [&str; 3] = [
+        "Nothing is here yet.",
+        "Press a key 1 … 7, or choose something under Add, and click here to place it.",
+        "W draws a wall, J, K and L join. Ctrl-O opens a scene.",
+    ];
+    let place = Rect::from_center_size(canvas.center(), vec2(canvas.width() - 8.0 * theme::GRID, 80.0));
+    let colour = theme::colours(ui).weak;
+    let centred = egui::UiBuilder::new().max_rect(place).layout(egui::Layout::top_down(Align::Center));
+    let ui = &mut ui.new_child(centred);
+    for line in LINES {
+        ui.add(Label::new(RichText::new(line).color(colour)).wrap());
+    }
 }
 
 /// "Body 12 · 3.20 m/s · 0.500 kg", "Rod 44 · 12.3 N pull", "Wall 3".

@@ -71,7 +71,7 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
     if found.is_empty() && !scenes.is_empty() {
         widgets::note(ui, "No scene of that name. Enter opens a path such as ./bridge.ron, Esc shows all scenes.");
     }
-    let height = (ui.available_height() - 88.0).max(4.0 * theme::ROW);
+    let height = (ui.available_height() - 88.0).max(8.0 * theme::ROW);
     let area = ScrollArea::vertical().id_salt("scenes").max_height(height).auto_shrink([false, true]);
     widgets::scroll(ui, area, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
