@@ -45,6 +45,7 @@ const BROKEN: &[(&str, usize, usize, &str)] = &[
     ("anchor_on_particle", 4, 39, "`at_a` on an end that does not turn"),
     ("bad_escape", 3, 17, "for a backslash"),
     ("binary", 1, 10, "not UTF-8"),
+    ("control_characters", 1, 14, "found `\\u{1b}`"),
     ("deep", 1, 23, "found `[`"),
     ("deep_end", 1, 36, "found `(`"),
     ("dotted_name", 3, 25, "without dots"),

@@ -16,6 +16,8 @@ pub enum Command {
     Speed(f64),
     /// Opens a shipped scene by name, or a scene file by path. On failure the running scene stays and a fault is shown.
     Open(String),
+    /// Opens a scene file by its path, which need not be text.
+    OpenFile(std::path::PathBuf),
     /// Writes the world as it stands to a scene file.
     SaveAs(std::path::PathBuf),
     /// Changes how the world is stepped.

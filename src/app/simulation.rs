@@ -10,9 +10,12 @@ use super::plot_data::{Plots, Sample};
 use super::trace::Trace;
 use super::{pick, setting};
 use crate::engine::{DVec2, EngineError, Grip, Id, Method, StepReport, Stepper, World};
+use crate::file::is_same;
 use crate::measure::Measures;
 use crate::scene::{self, Setup};
+use crate::text::named;
 use crate::trial::Trial;
+use std::ffi::OsStr;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
@@ -225,15 +228,13 @@ impl Simulation {
             }
             Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
             Command::Speed(speed) => return Err(format!("speed is {speed}, but must be between 0.01 and 10")),
-            Command::Open(name) => {
-                let setup = scene::open(&name).map_err(|error| error.to_string())?;
-                self.open(setup, "Open");
-            }
+            Command::Open(name) => self.open_scene(name.as_ref())?,
+            Command::OpenFile(path) => self.open_scene(path.as_os_str())?,
             Command::SaveAs(path) => {
                 let setup =
                     Setup { world: self.world.clone(), method: *self.stepper.method(), ..(*self.start).clone() };
                 scene::save(&path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
-                self.saved = Some(path.display().to_string());
+                self.saved = Some(named(&path));
             }
             Command::Method(method) => {
                 let name = setting::method(self.stepper.method(), &method);
@@ -312,7 +313,12 @@ impl Simulation {
                 Ok(())
             }
             LabOrder::Resume => self.laboratory.resume(&self.waker).map_err(|error| no_thread("lab", &error)),
-            LabOrder::Export(path) => self.laboratory.export(&path).map_err(|error| error.to_string()),
+            LabOrder::Export(path) => {
+                if self.start.file.as_ref().is_some_and(|scene| is_same(scene, &path)) {
+                    return Err(format!("{} is the open scene. Choose another name.", named(&path)));
+                }
+                self.laboratory.export(&path).map_err(|error| error.to_string())
+            }
         }
     }
 
@@ -338,6 +344,12 @@ impl Simulation {
 
     fn state(&self) -> State {
         State { world: self.world.clone(), method: *self.stepper.method(), start: self.start.clone() }
+    }
+
+    fn open_scene(&mut self, name_or_path: &OsStr) -> Result<(), String> {
+        let setup = scene::open(name_or_path).map_err(|error| error.to_string())?;
+        self.open(setup, "Open");
+        Ok(())
     }
 
     /// Starts a scene, which can be undone. A method that cannot be used shows a fault and changes nothing.
@@ -522,6 +534,7 @@ mod tests {
         let about = String::new();
         let setup = Setup {
             name: "test".into(),
+            file: None,
             title: about.clone(),
             about,
             world,

@@ -43,6 +43,7 @@ impl Document {
         let truth = self.checked_truth(&world)?;
         Ok(Setup {
             name: name.to_owned(),
+            file: None,
             title: if self.title.is_empty() { name.to_owned() } else { self.title.clone() },
             about: self.about.clone(),
             names: names.of_bodies(&world.bodies().id),

@@ -6,6 +6,7 @@ use super::timing::Timing;
 use crate::app::{Camera, Command, Frame, Session};
 use crate::engine::DVec2;
 use crate::scene::{SceneError, Setup};
+use crate::text::escaped;
 use crate::ui::{Shell, ShellOutput};
 use anyhow::Context;
 use egui_winit::accesskit_winit;
@@ -180,7 +181,7 @@ impl Sandbox {
     fn handle(&mut self, event: &WindowEvent, timing: &mut Timing) {
         match event {
             WindowEvent::Resized(size) => self.screen.resize([size.width, size.height]),
-            WindowEvent::DroppedFile(path) => self.session.send(Command::Open(path.display().to_string())),
+            WindowEvent::DroppedFile(path) => self.session.send(Command::OpenFile(path.clone())),
             WindowEvent::KeyboardInput { .. } | WindowEvent::CursorMoved { .. } | WindowEvent::MouseInput { .. } => {
                 timing.input();
             }
@@ -254,7 +255,7 @@ impl Sandbox {
         let name = if scene.title.is_empty() { &scene.name } else { &scene.title };
         if self.title != *name {
             self.title.clone_from(name);
-            self.window.set_title(&format!("Tautline – {name}"));
+            self.window.set_title(&format!("Tautline – {}", escaped(name)));
         }
     }
 }

@@ -12,6 +12,7 @@ pub use shot::{ShotOptions, shot};
 use crate::scene;
 use anyhow::{Context, anyhow};
 use desktop::{Desktop, Wake};
+use std::ffi::{OsStr, OsString};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use timing::Timing;
 use winit::event_loop::EventLoop;
@@ -20,9 +21,9 @@ use winit::event_loop::EventLoop;
 ///
 /// # Errors
 /// One line each: no display, a missing system library, no graphics adapter, a scene that cannot be opened.
-pub fn run(scene: Option<&str>) -> anyhow::Result<()> {
+pub fn run(scene: Option<&OsStr>) -> anyhow::Result<()> {
     let timing = Timing::start();
-    let name = scene.unwrap_or(scene::shipped()[0].name).to_owned();
+    let name: OsString = scene.map_or_else(|| scene::shipped()[0].name.into(), OsStr::to_owned);
     // Read while the window and the graphics device are being set up.
     let setup = std::thread::spawn(move || scene::open(&name));
     let event_loop = match event_loop() {
