@@ -54,7 +54,7 @@ fn rows(csv: &str) -> Vec<Vec<f64>> {
 const TRAJECTORY: &str = "time,id,x,y,angle,vx,vy,omega";
 const MEASURES: &str = "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,violation_max,\
                         penetration_max,contacts,step_us,local_error,violation_rms,energy,energy_drift,\
-                        error_rms,error_max,error_rms_percent,error_max_percent,order";
+                        error_rms,error_max,error_rms_percent,error_max_percent,order,growth";
 
 #[test]
 fn every_command_explains_itself() {
@@ -290,7 +290,7 @@ fn settings_on_the_command_line_replace_those_of_the_scene() {
 fn the_summary_stays_out_of_rows_on_standard_output() {
     let output = tautline(&["run", "pendulum", "--seconds", "0.1", "--measures", "-", "--hash"]);
     let (out, messages) = (text(&output.stdout), text(&output.stderr));
-    assert!(out.lines().all(|line| line.split(',').count() == 20), "{out}");
+    assert!(out.lines().all(|line| line.split(',').count() == 21), "{out}");
     assert_eq!(messages.lines().count(), 2, "summary and hash: {messages}");
 }
 

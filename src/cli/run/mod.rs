@@ -8,6 +8,8 @@ use super::numbers;
 use super::output::{Output, is_same, is_stdout, spare_scene};
 use super::stop;
 use crate::engine::{Integrator, LinearSolver, Method, Solver};
+use crate::lab::scene_length;
+use crate::measure::Growth;
 use crate::scene::{self, Setup};
 use crate::text::named;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -32,7 +34,9 @@ use watch::{Refined, Watch};
 /// substeps; violation_rms [m]; energy, the sum [J]; energy_drift, the energy
 /// less that at the start, in parts of the largest kinetic energy plus the spread of the other energies so far;
 /// error_rms and error_max, the distance from the exact motion over all bodies [m], and error_rms_percent and error_max_percent,
-/// the same in percent of the length that the scene names; order, with --order.
+/// the same in percent of the length that the scene names; order, with --order; growth, by accuracy: by how much at most the motion
+/// has let a disturbance at the start grow so far (folded chains, upright and double pendulums amplify errors, and no
+/// accuracy of the steps can help that), up to where something goes through the substeps.
 ///
 /// The error columns are empty where no exact motion is known: in scenes without a `truth` entry, after its seconds, and between
 /// the samples of a truth, which are 1/60 s apart. The last line tells the error over all samples that the run has met.
@@ -181,11 +185,13 @@ pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
         trajectory: trajectory.as_mut().map(|output| output as &mut dyn Write),
         measures: measures.as_mut().map(|output| output as &mut dyn Write),
     };
-    let mut watch = Watch::new(&setup.world, exact, refined);
+    let length = setup.truth.map_or_else(|| scene_length(&setup.world), |truth| truth.length);
+    let growth = method.automatic.then(|| Growth::new(&setup.world, &method, length)).transpose()?;
+    let mut watch = Watch::new(&setup.world, exact, refined, growth);
     stop::listen();
     let started = Instant::now();
     let finish = run(setup.world, method, sampling, &mut rows, &mut watch)?;
-    let spent = started.elapsed().as_secs_f64();
+    let spent = started.elapsed().saturating_sub(watch.beside).as_secs_f64();
     // What a run has is kept, however it ended.
     [trajectory, measures].into_iter().flatten().try_for_each(Output::commit)?;
     if let Some(divergence) = finish.divergence {
