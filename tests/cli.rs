@@ -153,7 +153,7 @@ fn a_run_writes_every_body_at_the_start_and_at_every_sample() {
 }
 
 /// The columns of a run's measures by name.
-fn measured(arguments: &[&str]) -> impl Fn(&str) -> Vec<f64> {
+fn measured(arguments: &[&str]) -> impl Fn(&str) -> Vec<f64> + use<> {
     let rows = rows(&prints(&[&["run"], arguments, &["--measures", "-"]].concat()));
     move |name| {
         let column = MEASURES.split(',').position(|known| known == name).unwrap_or_else(|| panic!("no column {name}"));
@@ -184,6 +184,78 @@ fn measures_tell_the_error_where_the_truth_is_known() {
 }
 
 #[test]
+fn no_output_holds_what_is_no_number() {
+    let folder = folder();
+    let scene = |name: &str, text: &str| {
+        std::fs::write(path_in(&folder, name), text).expect("a scene file");
+        path_in(&folder, name)
+    };
+    let oscillators: String = ["0", "0.2", "20", "40", "1e6", "1e12"]
+        .iter()
+        .enumerate()
+        .map(|(i, damping)| format!("Spring(a: (-1, {i}), b: \"{i}\", rest: 1, stiffness: 100, damping: {damping}), "))
+        .collect();
+    let balls: String = (0..6)
+        .map(|i| format!("Particle(name: \"{i}\", position: (0.25, {i}), radius: 0, collides: false), "))
+        .collect();
+    let damped = scene(
+        "damped.ron",
+        &format!(
+            "(version: 1, truth: (seconds: 1, length: 0.25, form: Oscillator), settings: (gravity: (0, 0), automatic: true, \
+             accuracy: 1e-9), bodies: [{balls}], constraints: [{oscillators}])"
+        ),
+    );
+    let still = "settings: (gravity: (0, 0), automatic: true)";
+    let scenes = [
+        damped.clone(),
+        scene("empty.ron", "(version: 1)"),
+        scene("still.ron", &format!("(version: 1, {still}, bodies: [Particle()])")),
+        scene("fixed.ron", &format!("(version: 1, {still}, bodies: [Disc(motion: Static)])")),
+        scene("light.ron", &format!("(version: 1, {still}, bodies: [Disc(mass: 1e-12, radius: 1e-9)])")),
+        scene("heavy.ron", "(version: 1, bodies: [Disc(mass: 1e12, position: (1e8, -1e8), velocity: (1e6, 0))])"),
+        scene(
+            "drag.ron",
+            "(version: 1, truth: (seconds: 1, length: 1, form: Projectile), settings: (drag: 1e-300), bodies: [Particle()])",
+        ),
+        scene(
+            "point.ron",
+            "(version: 1, bodies: [Particle(name: \"a\")], constraints: [Spring(a: \"a\", b: (0, 0), rest: 0, stiffness: 9)])",
+        ),
+        "hard/weighing".to_owned(),
+        "hard/circle_stack".to_owned(),
+    ];
+    let is_clean = |text: &str| {
+        !["nan", "inf"]
+            .iter()
+            .any(|word| text.to_lowercase().split(|c: char| !c.is_ascii_alphanumeric()).any(|found| found == *word))
+    };
+    let [csv, json, table] = ["out.csv", "out.jsonl", "table.csv"].map(|name| path_in(&folder, name));
+    for scene in &scenes {
+        for more in [
+            &["--accuracy", "1e-6"][..],
+            &["--integrator", "velocity-verlet"],
+            &["--integrator", "velocity-verlet", "--order"],
+        ] {
+            let run = ["run", scene, "--seconds", "1", "--csv", &csv, "--measures"];
+            let output = tautline(&[&run[..], &["-"], more].concat());
+            let (rows, said) = (text(&output.stdout), text(&output.stderr));
+            assert!(output.status.success() && is_clean(&said), "{scene} {more:?}: {said}");
+            assert!(is_clean(&rows), "{scene} {more:?}: {rows}");
+            assert!(is_clean(&read(&csv)), "{scene} {more:?}");
+        }
+        let lab =
+            ["lab", scene, "--seconds", "0.5", "--methods", "accuracy,rattle,semi-implicit-euler+pgs", "--budget", "1"];
+        let output = tautline(&[&lab[..], &["--json", &json, "--csv", &table]].concat());
+        let said = text(&output.stdout) + &text(&output.stderr);
+        assert!(output.status.success() && is_clean(&said), "{scene}: {said}");
+        assert!(is_clean(&read(&table)) && is_clean(&read(&json)), "{scene}: {}", read(&table));
+        tautline::lab::report::json::read(&read(&json)).unwrap_or_else(|error| panic!("{scene}: {error}"));
+    }
+    let errors = measured(&[&damped, "--seconds", "1"]);
+    assert!(errors("error_rms").iter().chain(&errors("error_max")).all(|error| *error < 1e-6), "known and small");
+}
+
+#[test]
 fn measures_add_up_the_energy_and_tell_its_drift() {
     let columns = measured(&["hard/oscillator", "--seconds", "2"]);
     let drift = columns("energy_drift");
@@ -197,6 +269,37 @@ fn measures_add_up_the_energy_and_tell_its_drift() {
     let columns = measured(&["hard/rope", "--seconds", "1", "--substeps", "2", "--solver", "pgs"]);
     let (rms, max) = (columns("violation_rms"), columns("violation_max"));
     assert!((1..rms.len()).all(|i| rms[i] > 0.0 && rms[i] <= max[i]), "{rms:?}");
+}
+
+#[test]
+fn a_run_by_accuracy_says_when_the_motion_amplifies_errors() {
+    let folder = folder();
+    let scene = |name: &str, y: f64| {
+        let text = format!(
+            "(version: 1, settings: (automatic: true), bodies: [Particle(name: \"bob\", position: (0, {y}), radius: 0)], \
+             constraints: [Rod(a: (0, 0), b: \"bob\")])"
+        );
+        std::fs::write(path_in(&folder, name), text).expect("a scene file");
+        path_in(&folder, name)
+    };
+    let (upright, hanging) = (scene("upright.ron", 1.0), scene("hanging.ron", -1.0));
+    let said = prints(&["run", &upright, "--seconds", "3", "--hash"]);
+    // sinh(3 s √(9.81/s²))
+    assert!(said.contains("; errors grow 6e3-fold in this motion\n"), "{said}");
+    assert!(!prints(&["run", &hanging, "--seconds", "3"]).contains("errors grow"));
+    let by_hand = prints(&["run", &upright, "--seconds", "3", "--integrator", "velocity-verlet"]);
+    assert!(!by_hand.contains("errors grow"), "nobody asked for an accuracy: {by_hand}");
+    let growth = measured(&[&upright, "--seconds", "3"])("growth");
+    assert!(growth[0].is_nan() && growth[1..].windows(2).all(|pair| pair[0] <= pair[1]), "{growth:?}");
+    for (step, growth) in growth.iter().enumerate().skip(60) {
+        let expected = (9.81f64.sqrt() * step as f64 / 60.0).sinh();
+        assert!((growth / expected - 1.0).abs() < 0.02, "{step}: {growth} {expected}");
+    }
+    // What follows a run does not change it.
+    let mut setup = tautline::scene::open(&upright).expect("a scene");
+    let mut stepper = tautline::engine::Stepper::new(setup.method).expect("a sound method");
+    (0..180).for_each(|_| drop(stepper.step(&mut setup.world)));
+    assert_eq!(said.lines().last(), Some(format!("{:016x}", setup.world.hash()).as_str()));
 }
 
 #[test]

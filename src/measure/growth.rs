@@ -1,6 +1,6 @@
 //! How far the motion itself carries errors: what becomes of a small disturbance.
 
-use crate::engine::{DVec2, EngineError, Method, Stepper, World};
+use crate::engine::{DVec2, EngineError, Method, StepReport, Stepper, World};
 
 /// From which growth on it is worth a word: below it an accuracy of 1e-3 is still one of a tenth.
 pub const SENSITIVE: f64 = 100.0;
@@ -9,6 +9,13 @@ pub const SENSITIVE: f64 = 100.0;
 /// which the two runs divide differently does not show. Their accuracy is [`ACCURACY`] or that of the run.
 const SIZE: f64 = 1e-4;
 const ACCURACY: f64 = 1e-6;
+
+/// What the two runs may cost more than [`RATIO`] times the run beside them, in steps of one body: a second or so.
+const MOST_WORK: u64 = 1_000_000;
+const RATIO: u64 = 10;
+
+/// Growth beyond which no digit of a number would be left; how far beyond says nothing more.
+const TOTAL: f64 = 1e16;
 
 /// The difference is brought back to [`SIZE`] when it has left it by this factor.
 const LINEAR: f64 = 10.0;
@@ -21,7 +28,8 @@ const LINEAR: f64 = 10.0;
 /// distances. Growth is the distance of the positions against the disturbance: 1 for a pendulum that hangs, t in time units for
 /// what flies freely, sinh t for what stands on its head. What the run itself does is not touched.
 ///
-/// It ends where a step goes through the substeps, for these are not followed to an accuracy that could be amplified.
+/// It ends where a step goes through the substeps, for these are not followed to an accuracy that could be amplified, and where
+/// following both runs that exactly costs far more than the run itself.
 pub struct Growth {
     base: World,
     disturbed: World,
@@ -35,6 +43,9 @@ pub struct Growth {
     first: f64,
     /// Logarithm of the largest growth so far.
     largest: f64,
+    /// Work of the two runs, and what they may do, in steps of one body.
+    work: u64,
+    allowed: u64,
     /// Where it ended [s].
     ended: Option<f64>,
 }
@@ -64,20 +75,25 @@ impl Growth {
             scaled: 0.0,
             first: 0.0,
             largest: 0.0,
+            work: 0,
+            allowed: MOST_WORK,
             ended: None,
         })
     }
 
-    /// Takes a step. A pair of steps, if it has not ended.
-    pub fn step(&mut self) {
+    /// Takes a step of both runs, if it has not ended, after the run beside them took one that told `report`.
+    pub fn step(&mut self, report: &StepReport) {
         if self.ended.is_some() {
             return;
         }
         let time = self.base.time();
         let [base, disturbed] = &mut self.steppers;
         let reports = [base.step(&mut self.base), disturbed.step(&mut self.disturbed)];
+        self.work += reports.iter().map(work).sum::<u64>();
+        self.allowed += RATIO * work(report);
         let Difference { position, whole } = self.difference();
-        let followed = reports.iter().all(|report| report.divergence.is_none() && report.substeps == 0);
+        let carried = |report: &StepReport| report.divergence.is_none() && report.substeps == 0;
+        let followed = reports.iter().all(carried) && self.work <= self.allowed;
         if !followed || !whole.is_finite() {
             self.ended = Some(time);
             return;
@@ -109,7 +125,11 @@ impl Growth {
     /// "errors grow 4e5-fold in this motion", if they grow enough to say so.
     pub fn sentence(&self) -> Option<String> {
         let factor = self.factor().filter(|factor| *factor >= SENSITIVE)?;
-        let factor = if factor < 1e3 { format!("{factor:.0}") } else { format!("{factor:.0e}") };
+        let factor = match factor {
+            _ if factor < 1e3 => format!("{factor:.0}"),
+            _ if factor < TOTAL => format!("{factor:.0e}"),
+            _ => format!("more than {TOTAL:e}"),
+        };
         Some(match self.ended {
             None => format!("errors grow {factor}-fold in this motion"),
             Some(time) => format!("errors grow {factor}-fold in the first {time:.2} s"),
@@ -144,6 +164,11 @@ impl Growth {
         b.rotors.angle.iter_mut().zip(&a.rotors.angle).for_each(|(there, here)| scale(there, here));
         b.rotors.omega.iter_mut().zip(&a.rotors.omega).for_each(|(there, here)| scale(there, here));
     }
+}
+
+/// What a step took, in steps of one body.
+fn work(report: &StepReport) -> u64 {
+    report.bodies as u64 * u64::from(report.island_steps.max(report.substeps).max(1) + report.retries)
 }
 
 /// The time in which the scene moves by its length [s]: of a fall, or else of its fastest body; 1 s where nothing moves.
@@ -190,7 +215,7 @@ mod tests {
     fn after(world: &World, length: f64, seconds: f64) -> Growth {
         let mut growth = Growth::new(world, &Method::default(), length).expect("a sound method");
         let steps = (seconds * Method::default().hz).round() as u32;
-        (0..steps).for_each(|_| growth.step());
+        (0..steps).for_each(|_| growth.step(&StepReport::default()));
         growth
     }
 
@@ -298,6 +323,18 @@ mod tests {
         let growth = after(&world, length, 5.0);
         near(&growth, largest / baseline, 0.05);
         assert!(largest / baseline > SENSITIVE && growth.sentence().is_some());
+    }
+
+    #[test]
+    fn what_costs_too_much_is_left_and_what_exceeds_all_bounds_is_not_counted() {
+        let mut growth = after(&pendulum(1.0, std::f64::consts::PI), 1.0, 6.0);
+        (growth.work, growth.allowed) = (10, 10);
+        growth.step(&StepReport::default());
+        assert!((growth.ended().expect("it ended") - 6.0).abs() < 1e-9);
+        assert_eq!(growth.sentence().as_deref(), Some("errors grow 7e7-fold in the first 6.00 s"));
+        growth.largest = 1e4;
+        assert_eq!(growth.sentence().as_deref(), Some("errors grow more than 1e16-fold in the first 6.00 s"));
+        assert!(growth.factor().is_some_and(f64::is_finite));
     }
 
     #[test]

@@ -97,7 +97,7 @@ pub(super) fn run(
         }
         since_row.add(&report, lapsed);
         steps = step;
-        watch.step();
+        watch.step(&report);
         let seen = watch.look(&world);
         if step >= sampling.step_of(sample, method.hz) {
             rows.write(&world, &seen, since_row.take())?;

@@ -1,6 +1,6 @@
 //! What is measured of a run while it goes on: energy and its drift, the error against the truth, the order of convergence.
 
-use crate::engine::{DVec2, Integrator, Method, Stepper, World};
+use crate::engine::{DVec2, Integrator, Method, StepReport, Stepper, World};
 use crate::measure::{Distance, EnergyDrift, ErrorSum, Growth, Measures, observed_order};
 use crate::truth::Trajectory;
 use std::time::{Duration, Instant};
@@ -38,10 +38,10 @@ impl Watch {
         Watch { drift, exact, error: ErrorSum::default(), refined, growth, beside: Duration::ZERO }
     }
 
-    /// Takes a step of the runs beside it.
-    pub(super) fn step(&mut self) {
+    /// Takes a step of the runs beside it, after the run took one that told `report`.
+    pub(super) fn step(&mut self, report: &StepReport) {
         let begun = Instant::now();
-        self.growth.iter_mut().for_each(Growth::step);
+        self.growth.iter_mut().for_each(|growth| growth.step(report));
         for (world, stepper) in &mut self.refined.runs {
             self.refined.diverged |= stepper.step(world).divergence.is_some();
         }
