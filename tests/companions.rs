@@ -160,8 +160,57 @@ fn a_touched_run_is_followed_by_a_reference_from_the_same_start() {
     let fresh = wait_for("the restart", || Some(session.frame()).filter(|frame| frame.world.tick() == 0));
     let report = truth_of(&fresh);
     assert!(matches!(report.standing, Standing::Exact { .. } | Standing::Waiting), "{:?}", report.standing);
+    // What is known costs nothing and stays.
     session.send(Command::Truth(false));
-    wait_for("the truth to go", || Some(session.frame()).filter(|frame| frame.companions.truth.is_none()));
+    session.send(Command::Run(true));
+    at_tick(&session, 5);
+    let report = truth_of(&pause(&session));
+    assert!(matches!(report.standing, Standing::Exact { .. }), "{:?}", report.standing);
+}
+
+#[test]
+fn a_scene_whose_motion_is_known_is_compared_without_being_asked_until_it_is_changed() {
+    for name in ["truth/rope", "hard/pendulum"] {
+        let session = start(open(name));
+        at_tick(&session, 20);
+        let frame = pause(&session);
+        let report = truth_of(&frame);
+        assert!(matches!(report.standing, Standing::Exact { .. }), "{name}: {:?}", report.standing);
+        assert!(report.gap.is_some_and(|gap| gap.rms > 0.0), "{name}");
+        session.send(Command::Gravity(v(0.0, -3.0)));
+        wait_for("the other gravity", || Some(session.frame()).filter(|frame| frame.world.gravity().y == -3.0));
+        session.send(Command::StepOnce);
+        let frame = at_tick(&session, frame.world.tick() + 1);
+        // Nothing is computed that was not asked for.
+        let report = truth_of(&frame);
+        assert!(matches!(report.standing, Standing::Over { touched: true, .. }), "{name}: {:?}", report.standing);
+        assert!(report.gap.is_none() && report.offsets.bodies.is_empty(), "{name}");
+        session.send(Command::Truth(true));
+        session.send(Command::StepOnce);
+        let frame = at_tick(&session, frame.world.tick() + 1);
+        let report = truth_of(&frame);
+        assert!(matches!(report.standing, Standing::Converged { .. }), "{name}: {:?}", report.standing);
+        session.send(Command::Open("bridge".into()));
+        session.send(Command::Truth(false));
+        wait_for("no truth", || {
+            Some(session.frame()).filter(|f| f.scene.name == "bridge" && f.companions.truth.is_none())
+        });
+        session.send(Command::Undo);
+        wait_for("the truth again", || Some(session.frame()).filter(|f| f.companions.truth.is_some()));
+    }
+}
+
+#[test]
+fn where_what_is_known_ends_the_error_until_then_is_kept() {
+    let setup = open("truth/rope");
+    let seconds = setup.truth.expect("it has a truth").seconds;
+    let frame = frame_after(setup, seconds + 0.25, &Beside::default());
+    let report = truth_of(&frame);
+    let Standing::Over { after, touched: false } = report.standing else { panic!("{:?}", report.standing) };
+    // The first step beyond the last sample, 1/60 s later at most.
+    assert!(after > seconds && after < seconds + 0.02, "{after}");
+    println!("exact rope as it opens: {:.3e} m RMS over its {seconds} s", report.so_far);
+    assert!(report.so_far > 0.0);
 }
 
 /// Balls that hit each other in a box.

@@ -151,6 +151,147 @@ fn undo_and_redo_restore_the_exact_state() {
 }
 
 #[test]
+fn undo_takes_back_the_edit_and_leaves_time_and_all_other_motion() {
+    let mut world = weightless();
+    let ball = world.add_body(&Body { velocity: v(1.0, 0.0), ..Body::default() }).expect("valid");
+    // A pair on a rod that flies along: cut, its halves would each go their own way.
+    let spinning = |y: f64, vx: f64| Body { position: v(0.0, y), velocity: v(vx, 0.0), ..Body::default() };
+    let (a, b) = (world.add_body(&spinning(5.0, 1.0)), world.add_body(&spinning(6.0, -1.0)));
+    let (a, b) = (a.expect("valid"), b.expect("valid"));
+    let link = rod(&mut world, 1.0, a, b);
+    let session = start(world);
+    wait_for(&session, "some steps", |f| f.world.tick() > 10);
+    session.send(Command::Edit(Edit::Cut(v(-9.0, 5.51), v(9.0, 5.49))));
+    let cut = wait_for(&session, "the cut", |f| f.world.constraint(link).is_err());
+    let drifted = wait_for(&session, "the halves to part", |f| position(f, a).distance(position(f, b)) > 1.2);
+    session.send(Command::Undo);
+    let undone = wait_for(&session, "the rod again", |f| f.world.constraint(link).is_ok());
+    assert!(undone.world.time() >= drifted.world.time() && undone.world.tick() >= drifted.world.tick());
+    assert!(position(&undone, ball).x >= position(&drifted, ball).x, "what the cut did not concern goes on");
+    // What was torn is whole again, as it was when it was cut.
+    assert!((position(&undone, a).distance(position(&undone, b)) - 1.0).abs() < 1e-3);
+    assert!(undone.fault.is_none() && undone.running);
+    session.send(Command::Redo);
+    let redone = wait_for(&session, "the cut again", |f| f.world.constraint(link).is_err());
+    assert!(redone.world.time() >= undone.world.time() && redone.undo.as_deref() == Some("Cut"));
+    assert_eq!(cut.undo, redone.undo);
+    // What was placed is taken away again, and nothing else.
+    session.send(Command::Edit(Edit::Spawn { kind: Spawn::Rope, at: v(0.0, -9.0), size: 0.1 }));
+    let placed = wait_for(&session, "the rope", |f| f.world.bodies().len() > 10);
+    wait_for(&session, "time", |f| f.world.tick() > placed.world.tick() + 10);
+    let before = session.frame();
+    session.send(Command::Undo);
+    let undone = wait_for(&session, "the rope to go", |f| f.world.bodies().len() == 3);
+    assert!(undone.world.time() >= before.world.time());
+    assert!(position(&undone, ball).x >= position(&before, ball).x);
+}
+
+#[test]
+fn undoing_a_change_of_a_property_keeps_the_motion_since() {
+    let mut world = weightless();
+    let ball = world.add_body(&Body { velocity: v(1.0, 0.0), ..Body::default() }).expect("valid");
+    let session = start(world);
+    let body = session.frame().world.body(ball).expect("there");
+    let heavy = Box::new(Body { mass: 5.0, ..body });
+    session.send(Command::Edit(Edit::ChangeBody { id: ball, from: Box::new(body), to: heavy }));
+    session.send(Command::Gravity(v(0.0, -1.0)));
+    let later = wait_for(&session, "time", |f| f.world.tick() > 20);
+    session.send(Command::Undo);
+    session.send(Command::Undo);
+    let undone = wait_for(&session, "both undone", |f| f.undo.is_none());
+    let (was, is) = (later.world.body(ball).expect("there"), undone.world.body(ball).expect("there"));
+    assert_eq!((was.mass, is.mass, undone.world.gravity()), (5.0, body.mass, DVec2::ZERO));
+    assert!(is.position.x >= was.position.x && is.velocity.y <= was.velocity.y && is.velocity.y < 0.0, "{is:?}");
+    assert!(undone.world.time() >= later.world.time());
+}
+
+#[test]
+fn a_whole_slash_is_undone_as_one_and_two_slashes_as_two() {
+    let mut world = weightless();
+    let nodes: Vec<Id> = (0..6).map(|i| add(&mut world, v(f64::from(i), 0.0))).collect();
+    for pair in nodes.windows(2) {
+        rod(&mut world, 1.0, pair[0], pair[1]);
+    }
+    let session = start(world);
+    let across = |x: f64, first| Command::Slash { from: v(x, 1.0), to: v(x, -1.0), first };
+    // The first piece of the first slash meets nothing; the world moves on between the pieces.
+    for (x, first) in [(-0.5, true), (0.5, false), (1.5, false)] {
+        session.send(across(x, first));
+        let tick = session.frame().world.tick();
+        wait_for(&session, "time between two pieces", |f| f.world.tick() > tick + 3);
+    }
+    session.send(across(3.5, true));
+    let cut = wait_for(&session, "three cuts", |f| f.world.constraints().len() == 2);
+    assert_eq!(cut.undo.as_deref(), Some("Cut"));
+    session.send(Command::Undo);
+    wait_for(&session, "the second slash undone", |f| f.world.constraints().len() == 3 && f.undo.is_some());
+    session.send(Command::Undo);
+    let whole = wait_for(&session, "all of the first undone", |f| f.world.constraints().len() == 5);
+    assert_eq!(whole.undo, None);
+    session.send(Command::Redo);
+    wait_for(&session, "all of the first again", |f| f.world.constraints().len() == 3);
+}
+
+#[test]
+fn undone_in_a_pile_that_has_settled_an_edit_does_not_disturb_it() {
+    let mut world = World::new();
+    world.add_wall(&Wall::block(v(-9.0, -1.0), v(9.0, 0.0))).expect("a floor");
+    let disc = |y: f64| Body { position: v(0.0, y), radius: 0.5, ..Body::default() };
+    let discs: Vec<Id> = (0..4).map(|i| world.add_body(&disc(0.5 + f64::from(i))).expect("valid")).collect();
+    let far = add(&mut world, v(7.0, 0.5));
+    let session = start(world);
+    wait_for(&session, "rest", |f| f.world.tick() > 60);
+    // Removed before the others, so that their indices differ before and after.
+    session.send(Command::Edit(Edit::Delete(vec![discs[0]])));
+    let fallen = wait_for(&session, "the stack to fall", |f| f.world.body(discs[0]).is_err() && f.world.tick() > 200);
+    session.send(Command::Edit(Edit::Delete(vec![far])));
+    wait_for(&session, "the far one to go", |f| f.world.body(far).is_err());
+    session.send(Command::Undo);
+    let undone = wait_for(&session, "the far one", |f| f.world.body(far).is_ok());
+    let later = wait_for(&session, "time", |f| f.world.tick() > undone.world.tick() + 30);
+    for id in &discs[1..] {
+        let (was, is) = (position(&fallen, *id), position(&later, *id));
+        assert!(was.distance(is) < 0.01, "{id}: {was} became {is}");
+    }
+}
+
+#[test]
+fn a_new_scene_is_empty_by_accuracy_and_named_and_what_was_left_unsaved_comes_back() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut world = World::new();
+    add(&mut world, v(0.0, 0.0));
+    let session = start(world);
+    session.send(Command::New);
+    let empty = wait_for(&session, "the new scene", |f| f.scene.title == "New scene");
+    assert!(empty.world.bodies().is_empty() && empty.world.tick() < 60 && !empty.scene.about.is_empty());
+    assert!(empty.method.automatic && empty.method.accuracy == 1e-3);
+    assert_eq!((empty.note.as_deref(), empty.undo.as_deref()), (None, Some("New scene")), "nothing unsaved was left");
+    session.send(Command::Edit(Edit::Spawn { kind: Spawn::Disc, at: v(0.0, 1.0), size: 0.1 }));
+    wait_for(&session, "the disc", |f| f.world.bodies().len() == 1);
+    session.send(Command::Open("pendulum".into()));
+    let other = wait_for(&session, "another scene", |f| f.scene.name == "pendulum");
+    let note = other.note.clone().expect("it says what was left");
+    assert!(note.contains("New scene") && note.contains("Ctrl-Z"), "{note}");
+    session.send(Command::Undo);
+    let back = wait_for(&session, "the new scene again", |f| f.scene.title == "New scene");
+    assert_eq!((back.world.bodies().len(), back.note.as_deref()), (1, None));
+    let path = folder.path().join("mobile.ron");
+    session.send(Command::SaveAs(path.clone()));
+    let saved = wait_for(&session, "the file", |f| f.saved.is_some());
+    assert_eq!(
+        (saved.scene.title.as_str(), saved.scene.opened),
+        ("mobile", back.scene.opened),
+        "called after its file"
+    );
+    session.send(Command::Open("pendulum".into()));
+    let other = wait_for(&session, "another scene", |f| f.scene.name == "pendulum");
+    assert_eq!(other.note, None, "nothing is unsaved");
+    session.send(Command::Open(path.display().to_string()));
+    let read = wait_for(&session, "the file", |f| f.scene.name == path.display().to_string());
+    assert_eq!(read.scene.title, "mobile");
+}
+
+#[test]
 fn the_choice_by_accuracy_reaches_the_simulation_and_is_undone_by_name() {
     let session = start(World::new());
     let by_accuracy = Method { automatic: true, ..session.frame().method };
@@ -327,6 +468,22 @@ fn speed_scales_simulated_time() {
 }
 
 #[test]
+fn slow_motion_is_a_tenth_of_the_speed_and_leaves_it_as_it_was() {
+    let session = start(weightless());
+    session.send(Command::Speed(2.0));
+    session.send(Command::Slow(true));
+    let slow = wait_for(&session, "slow motion", |f| f.speed.slow);
+    assert_eq!((slow.speed.wanted, slow.speed.rate()), (2.0, 0.2));
+    std::thread::sleep(Duration::from_secs(1));
+    let passed = session.frame().world.time() - slow.world.time();
+    // A fifth of the second, a step (1/60 s) either way at the ends; a busy machine can only make it less.
+    assert!(passed > 0.02 && passed < 0.25, "{passed} s simulated in 1 s");
+    session.send(Command::Slow(false));
+    let fast = wait_for(&session, "the speed", |f| !f.speed.slow);
+    assert_eq!(fast.speed.rate(), 2.0);
+}
+
+#[test]
 fn the_plots_hold_every_step_even_those_without_a_frame() {
     let mut world = World::new();
     add(&mut world, v(0.0, 0.0));
@@ -343,9 +500,10 @@ fn the_plots_hold_every_step_even_those_without_a_frame() {
 #[test]
 fn the_history_forgets_the_oldest_edits_but_never_the_last() {
     let mut history = History::default();
-    let state = State { world: World::new(), method: Method::default(), start: Arc::new(setup(World::new())) };
+    let start = Arc::new(setup(World::new()));
+    let state = State { world: World::new(), method: Method::default(), start, edited: false };
     for edit in 0..1000 {
-        history.record(format!("edit {edit}"), state.clone());
+        history.record(format!("edit {edit}"), state.clone(), state.clone());
     }
     let mut kept = 0;
     while history.undo(state.clone()).is_some() {
@@ -354,7 +512,7 @@ fn the_history_forgets_the_oldest_edits_but_never_the_last() {
     assert_eq!(kept, 200);
     assert_eq!(history.redo_name(), Some("edit 800"));
     history.redo(state.clone()).expect("there is something to redo");
-    history.record("another".into(), state);
+    history.record("another".into(), state.clone(), state);
     assert_eq!((history.undo_name(), history.redo_name()), (Some("another"), None));
 }
 
@@ -526,13 +684,14 @@ fn a_slash_cuts_what_swings_away_before_it_is_let_go() {
     world.add_constraint(&Constraint::between(Kind::Rod { length: 2.0 }, a, b)).unwrap();
     let mut hand = Hand::with(Tool::Cut);
     assert!(hand.event(&world, Phase::Press(Button::Left), v(-1.0, 0.0)).is_empty());
-    assert!(matches!(hand.event(&world, Phase::Move, v(-0.5, 0.0))[..], [Command::Edit(Edit::Cut(..))]));
-    let [Command::Edit(Edit::Cut(from, to))] = hand.event(&world, Phase::Move, v(0.5, 0.0))[..] else {
+    assert!(matches!(hand.event(&world, Phase::Move, v(-0.5, 0.0))[..], [Command::Slash { first: true, .. }]));
+    let [Command::Slash { from, to, first: false }] = hand.event(&world, Phase::Move, v(0.5, 0.0))[..] else {
         panic!("a piece of the slash");
     };
     assert!(from.distance(v(-0.5, 0.0)) < 1e-9 && to.distance(v(0.5, 0.0)) < 1e-9, "{from} {to}");
     assert_eq!(change(&mut world, Edit::Cut(from, to)).len(), 1, "the piece has met the rod");
-    let [Command::Edit(Edit::Cut(from, to))] = hand.event(&world, Phase::Release(Button::Left), v(1.0, 0.0))[..] else {
+    let [Command::Slash { from, to, first: false }] = hand.event(&world, Phase::Release(Button::Left), v(1.0, 0.0))[..]
+    else {
         panic!("the whole slash, as it was drawn");
     };
     assert!(from.distance(v(-1.0, 0.0)) < 1e-9 && to.distance(v(1.0, 0.0)) < 1e-9, "{from} {to}");

@@ -135,6 +135,7 @@ fn bridge() -> Frame {
             stage_us: stage_us.map(|us| us * busy),
             step_us: 310.0 * busy,
             local_error: 1e-9 * (1.0 + busy),
+            lapses: 0,
         });
     }
     let measures = plots.read().back().expect("pushed above").measures;
@@ -159,9 +160,11 @@ fn bridge() -> Frame {
         trace: tautline::app::Trace::default(),
         plan: "Forty rods and one contact pair: the grid finds contacts, PGS sweeps all rows in order.".into(),
         running: true,
-        speed: Speed { wanted: 1.0, achieved: 0.62 },
+        speed: Speed { wanted: 1.0, slow: false, achieved: 0.62 },
         fault: None,
+        note: None,
         saved: None,
+        unsaved: None,
         undo: Some("Cut".into()),
         redo: None,
         touched: Arc::default(),
@@ -282,6 +285,73 @@ fn overriding_a_material_offers_its_slider_and_sends_it() {
         let set = |c: &Command| matches!(c, Command::Tuning(t) if [t.restitution, t.friction].contains(&Some(0.25)));
         assert!(commands.iter().any(set), "{slider}: {commands:?}");
     }
+}
+
+/// The same bridge, by accuracy.
+fn by_accuracy() -> Frame {
+    let frame = bridge();
+    let report = StepReport { tick: 1200, local_error: 2e-7, ..frame.report };
+    Frame { method: Method { automatic: true, accuracy: 1e-3, ..frame.method }, report, ..frame }
+}
+
+#[test]
+fn by_accuracy_there_is_one_dial_what_it_chose_costs_and_is_off_by_and_the_rest_is_folded() {
+    let mut harness = harness(by_accuracy());
+    for hidden in ["Substeps", "Iterations", "Integrator", "Constraint solver", "Warm starting", "Baumgarte"] {
+        assert!(harness.query_by_label(hidden).is_none(), "{hidden} has no effect and is in sight");
+    }
+    for shown in ["Accuracy", "Forty rods and one contact pair", "310 µs of 16.7 ms", "2e−7"] {
+        assert!(harness.query_all_by_label_contains(shown).next().is_some(), "{shown}");
+    }
+    harness.get_by_label("By hand").click();
+    harness.run();
+    assert!(harness.query_by_label_contains("these settings had no effect").is_some());
+    harness.get_by_label("Substeps").set_value_accesskit(3.0);
+    harness.run();
+    assert!(taken(&mut harness).iter().any(|c| matches!(c, Command::Method(m) if m.substeps == 3 && m.automatic)));
+    // Where something goes through the substeps they do have one.
+    Arc::make_mut(&mut harness.state_mut().frame).report.substeps = 8;
+    harness.run();
+    assert!(harness.query_by_label_contains("these settings had no effect").is_none());
+}
+
+#[test]
+fn steps_that_did_not_keep_the_accuracy_are_told_by_the_bar_and_the_plot() {
+    let frame = by_accuracy();
+    let mut harness = harness(frame.clone());
+    harness.state_mut().shell.state_mut().plot = PlotTab::LocalError;
+    harness.run();
+    assert!(harness.query_by_label_contains("Accuracy kept").is_some());
+    assert!(harness.query_by_label_contains("Not kept").is_none());
+    let last = *frame.plots.read().back().expect("it has samples");
+    let report = StepReport { given_up: 1, ..frame.report };
+    for i in 1..=3 {
+        let measures = Measures { time: last.measures.time + f64::from(i) / 60.0, ..last.measures };
+        frame.plots.push(Sample::new(measures, &report));
+    }
+    harness.run();
+    assert!(harness.query_by_label_contains("Accuracy not kept in 3 of").is_some());
+    assert!(harness.query_by_label_contains("Not kept 3 steps").is_some());
+}
+
+#[test]
+fn a_held_key_slows_time_but_not_while_a_field_has_the_keyboard() {
+    let mut harness = harness(bridge());
+    harness.key_down(Key::M);
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::Slow(true)]));
+    harness.key_up(Key::M);
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::Slow(false)]));
+    harness.get_by_label("Find a scene").focus();
+    harness.run();
+    harness.key_down(Key::M);
+    harness.run();
+    harness.key_up(Key::M);
+    harness.run();
+    assert!(taken(&mut harness).is_empty());
+    at_once(&mut harness, hurried(Key::K, "slow motion").concat());
+    assert!(matches!(taken(&mut harness)[..], [Command::Slow(true)]), "by its name it is switched on");
 }
 
 #[test]
@@ -426,6 +496,186 @@ fn number_keys_pick_what_to_spawn_and_a_click_spawns_it() {
     harness.get_by_label("Cut").click();
     harness.run();
     assert_eq!(harness.state().shell.tools().tool(), Tool::Cut);
+}
+
+/// What a keyboard sends: press, the letter that it types, release.
+fn strokes(key: Key, modifiers: Modifiers, letter: Option<char>) -> Vec<Event> {
+    let stroke = |pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
+    let text = letter.map(|letter| Event::Text(letter.to_string()));
+    std::iter::once(stroke(true)).chain(text).chain([stroke(false)]).collect()
+}
+
+/// Ctrl with a key, then `text` and Enter, key by key.
+fn hurried(open: Key, text: &str) -> Vec<Vec<Event>> {
+    let key = |letter: char| match letter {
+        ' ' => Key::Space,
+        letter => Key::from_name(&letter.to_string().to_uppercase()).expect("a key of its own"),
+    };
+    let typed = text.chars().map(|letter| strokes(key(letter), Modifiers::NONE, Some(letter)));
+    let enter = strokes(Key::Enter, Modifiers::NONE, None);
+    std::iter::once(strokes(open, Modifiers::COMMAND, None)).chain(typed).chain([enter]).collect()
+}
+
+/// Hands events to the window at once, as one that draws slowly gets them.
+fn at_once(harness: &mut Harness<'_, Desk>, events: impl IntoIterator<Item = Event>) {
+    harness.input_mut().events.extend(events);
+    harness.run();
+}
+
+/// The same key by key, a pass each.
+fn pass_by_pass(harness: &mut Harness<'_, Desk>, keys: Vec<Vec<Event>>) {
+    for key in keys {
+        harness.input_mut().events.extend(key);
+        harness.step();
+    }
+    harness.run();
+}
+
+#[test]
+fn keys_after_an_action_that_opens_a_field_belong_to_that_field() {
+    type Expected = fn(&[Command]) -> bool;
+    let cases: [(Key, &str, Expected); 4] = [
+        (Key::K, "exact double", |c| matches!(c, [Command::Open(name)] if name == "truth/double_pendulum")),
+        (Key::O, "exact double", |c| matches!(c, [Command::Open(name)] if name == "truth/double_pendulum")),
+        (Key::S, "rcp.ron", |c| matches!(c, [Command::SaveAs(path)] if path.as_os_str() == "rcp.ron")),
+        // No line is left: nothing runs, and the list stays open for another try.
+        (Key::K, "rcpzzz", |c| c.is_empty()),
+    ];
+    for (open, text, expected) in cases {
+        for hurry in [true, false] {
+            for folded in [false, true] {
+                let mut harness = harness(bridge());
+                if folded {
+                    ["Scenes", "Save"].iter().for_each(|section| harness.get_by_label(section).click());
+                    harness.run();
+                    assert!(harness.query_by_label("Find a scene").is_none(), "the section is folded");
+                }
+                taken(&mut harness);
+                if hurry {
+                    at_once(&mut harness, hurried(open, text).concat());
+                } else {
+                    pass_by_pass(&mut harness, hurried(open, text));
+                }
+                let commands = taken(&mut harness);
+                assert!(expected(&commands), "{open:?} {text:?}, at once: {hurry}: {commands:?}");
+                assert_eq!(harness.state().shell.tools().tool(), Tool::Drag, "{text:?} took up a tool");
+            }
+        }
+    }
+}
+
+#[test]
+fn after_an_enter_in_vain_the_list_of_actions_still_has_the_keyboard() {
+    let mut harness = harness(bridge());
+    at_once(&mut harness, hurried(Key::K, "zzz").concat());
+    let erase = (0..3).flat_map(|_| strokes(Key::Backspace, Modifiers::NONE, None)).collect::<Vec<_>>();
+    let again = hurried(Key::K, "restart")[1..].concat();
+    at_once(&mut harness, [erase, again].concat());
+    assert!(matches!(taken(&mut harness)[..], [Command::Restart]));
+}
+
+#[test]
+fn the_list_of_actions_hands_the_keyboard_on_to_what_it_opens() {
+    let mut harness = harness(bridge());
+    let keys = [hurried(Key::K, "save as").concat(), hurried(Key::K, "mine.ron")[1..].concat()].concat();
+    at_once(&mut harness, keys);
+    let commands = taken(&mut harness);
+    assert!(matches!(&commands[..], [Command::SaveAs(path)] if path.as_os_str() == "mine.ron"), "{commands:?}");
+    // After the file is written keys are shortcuts again.
+    at_once(&mut harness, strokes(Key::C, Modifiers::NONE, Some('c')));
+    assert_eq!(harness.state().shell.tools().tool(), Tool::Cut);
+}
+
+#[test]
+fn a_number_clicked_and_typed_at_once_takes_the_keys_as_digits() {
+    let mut harness = harness(bridge());
+    let pos = harness.get_by_label("Gravity y value").rect().center();
+    harness.event(Event::PointerMoved(pos));
+    harness.run();
+    let click = [true, false].map(|pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    });
+    let digits = [(Key::Num3, '3'), (Key::Num1, '1')];
+    let digits = digits.map(|(key, digit)| strokes(key, Modifiers::NONE, Some(digit))).concat();
+    let enter = strokes(Key::Enter, Modifiers::NONE, None);
+    at_once(&mut harness, [click.to_vec(), digits, enter].concat());
+    let commands = taken(&mut harness);
+    assert!(matches!(&commands[..], [Command::Gravity(g)] if g.y == 30.0), "typed 31, of at most 30: {commands:?}");
+    assert_eq!(harness.state().shell.tools().tool(), Tool::Drag);
+}
+
+#[test]
+fn a_tool_chosen_by_key_is_the_one_that_a_click_at_once_uses() {
+    let (frame, ..) = pair();
+    let mut harness = harness(frame);
+    let pos = harness.state().at(DVec2::new(0.0, 1.0));
+    harness.event(Event::PointerMoved(pos));
+    harness.run();
+    let press = [true, false].map(|pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    });
+    at_once(&mut harness, [strokes(Key::Num2, Modifiers::NONE, Some('2')), press.to_vec()].concat());
+    let disc = |c: &Command| matches!(c, Command::Edit(Edit::Spawn { kind: Spawn::Disc, .. }));
+    assert!(taken(&mut harness).iter().any(disc));
+}
+
+#[test]
+fn a_new_scene_is_asked_for_by_key_and_by_name_and_says_what_to_do() {
+    let mut harness = harness(bridge());
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::N);
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::New]));
+    at_once(&mut harness, hurried(Key::K, "new scene").concat());
+    assert!(matches!(taken(&mut harness)[..], [Command::New]));
+    assert!(harness.query_by_label_contains("Nothing is here yet").is_none());
+    harness.state_mut().frame = Arc::new(Frame { world: World::new(), ..bridge() });
+    harness.run();
+    assert!(harness.query_by_label_contains("Nothing is here yet").is_some());
+    // The words do not stand in the way of the hand.
+    harness.key_press(Key::Num1);
+    harness.run();
+    let middle = harness.state().canvas.center();
+    click_at(&mut harness, middle, PointerButton::Primary);
+    assert!(taken(&mut harness).iter().any(|c| matches!(c, Command::Edit(Edit::Spawn { .. }))));
+}
+
+#[test]
+fn what_was_just_placed_is_selected() {
+    let (frame, body, rod) = pair();
+    let mut harness = harness(frame);
+    harness.key_press(Key::Num1);
+    harness.run();
+    let middle = harness.state().canvas.center() + vec2(0.0, 60.0);
+    click_at(&mut harness, middle, PointerButton::Primary);
+    assert!(harness.state().shell.tools().selection().is_empty(), "it is not there yet");
+    let frame = Arc::make_mut(&mut harness.state_mut().frame);
+    frame.touched = Arc::new(vec![body, rod]);
+    harness.run();
+    assert_eq!(harness.state().shell.tools().selection(), [body, rod]);
+    // Another edit selects nothing.
+    harness.state_mut().shell.select(Vec::new());
+    Arc::make_mut(&mut harness.state_mut().frame).touched = Arc::new(vec![body]);
+    harness.run();
+    assert!(harness.state().shell.tools().selection().is_empty());
+}
+
+#[test]
+fn a_note_says_what_was_left_offers_to_undo_it_and_goes_by_itself() {
+    let noted = Frame { note: Some("“Mine” had changes that were not saved.".into()), ..bridge() };
+    let mut harness = harness(noted);
+    assert!(harness.query_by_label_contains("had changes that were not saved").is_some());
+    harness.query_all_by_label("Undo").last().expect("a button in the note, after that in the bar").click();
+    harness.run();
+    assert!(matches!(taken(&mut harness)[..], [Command::Undo]));
+    harness.run_steps(60 * 13);
+    assert!(taken(&mut harness).iter().any(|c| matches!(c, Command::DismissNote)));
+    assert!(harness.query_by_label_contains("had changes that were not saved").is_none());
 }
 
 #[test]
@@ -747,6 +997,24 @@ fn the_distance_from_the_truth_carries_its_error_and_so_does_a_selected_body() {
 }
 
 #[test]
+fn the_error_of_a_known_motion_is_in_the_status_bar_without_the_ghost() {
+    let mut harness = harness(accompanied());
+    assert!(!harness.state().shell.state().view.ghost);
+    assert!(harness.query_all_by_label_contains("Off truth 1.302 ± 0.002 mm RMS").next().is_some());
+    assert!(taken(&mut harness).is_empty(), "nothing has to be asked for");
+    for (standing, text) in [
+        (Standing::Over { after: 1.5, touched: false }, "Off truth 700 µm RMS over its 1.50 s"),
+        (Standing::Over { after: 0.4, touched: true }, "Off truth not known: changed at 0.40 s"),
+    ] {
+        let report = Report { generation: 1, standing, so_far: 7e-4, length: 2.0, ..Report::default() };
+        let frame = Arc::make_mut(&mut harness.state_mut().frame);
+        frame.companions.truth = Some(Companion::fixed(report, []));
+        harness.run();
+        assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
+    }
+}
+
+#[test]
 fn side_by_side_the_panes_are_alike_and_the_method_of_the_second_is_chosen() {
     let mut harness = harness(accompanied());
     let (whole, scale) = (harness.state().canvas.width(), harness.state().camera.scale);
@@ -759,6 +1027,9 @@ fn side_by_side_the_panes_are_alike_and_the_method_of_the_second_is_chosen() {
     assert_eq!(harness.state().camera.scale, scale / 2.0);
     assert!(harness.query_by_label("Rival canvas").is_some());
     assert!(harness.query_all_by_label_contains("Seen to part at 2.12 s").next().is_some());
+    assert!(harness.query_by_label("B substeps").is_none(), "by accuracy it is folded away");
+    harness.get_by_label("B by hand").click_accesskit();
+    harness.run();
     harness.get_by_label("B substeps").set_value_accesskit(9.0);
     harness.run();
     assert!(taken(&mut harness).iter().any(|c| matches!(c, Command::Rival(Some(Method { substeps: 9, .. })))));

@@ -14,10 +14,14 @@ pub enum Command {
     Restart,
     /// Wanted speed: simulated seconds a second, 0.01 … 10.
     Speed(f64),
+    /// Slow motion, at [`super::frame::SLOW`] of the wanted speed, or no longer.
+    Slow(bool),
     /// Opens a shipped scene by name, or a scene file by path. On failure the running scene stays and a fault is shown.
     Open(String),
     /// Opens a scene file by its path, which need not be text.
     OpenFile(std::path::PathBuf),
+    /// Opens a new, empty scene.
+    New,
     /// Writes the world as it stands to a scene file.
     SaveAs(std::path::PathBuf),
     /// Changes how the world is stepped.
@@ -25,7 +29,8 @@ pub enum Command {
     Gravity(DVec2),
     Drag(f64),
     Tuning(Tuning),
-    /// Lets the truth follow the simulation, or no longer.
+    /// Lets the truth follow the simulation further than it is known, or no longer. A motion that is known is compared in any
+    /// case.
     Truth(bool),
     /// Lets a rival under this method follow the simulation, gives it this method, or ends it.
     Rival(Option<Method>),
@@ -42,10 +47,18 @@ pub enum Command {
     Release,
     /// An edit, undone as one.
     Edit(Edit),
+    /// A piece of a slash, from point to point: cuts what it crosses [m]. All pieces since the first are undone as one.
+    Slash {
+        from: DVec2,
+        to: DVec2,
+        first: bool,
+    },
     Undo,
     Redo,
     /// Forgets the shown fault.
     DismissFault,
+    /// Forgets the shown note.
+    DismissNote,
     /// Ends the thread.
     Quit,
 }
@@ -88,6 +101,12 @@ pub enum Edit {
 }
 
 impl Edit {
+    /// Whether it puts something new into the scene: what was just placed is selected.
+    pub fn places(&self) -> bool {
+        use Edit::{AddWall, Duplicate, Hang, Join, Spawn};
+        matches!(self, Spawn { .. } | Duplicate(..) | Join(_) | Hang { .. } | AddWall(_))
+    }
+
     /// The name under which undo and redo offer it.
     pub fn name(&self) -> String {
         match self {

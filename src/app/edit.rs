@@ -41,7 +41,7 @@ pub fn apply(world: &mut World, edit: &Edit) -> Result<Vec<Id>, EditError> {
 }
 
 /// `body` with those properties of `to` that differ from `from`.
-fn with_changes(mut body: Body, from: &Body, to: &Body) -> Body {
+pub(super) fn with_changes(mut body: Body, from: &Body, to: &Body) -> Body {
     fn take<T: Copy + PartialEq>(value: &mut T, from: T, to: T) {
         if from != to {
             *value = to;

@@ -6,6 +6,7 @@ use super::plot_data::Plots;
 use super::trace::Trace;
 use crate::engine::{DVec2, Id, Method, StepReport, World};
 use crate::measure::Measures;
+use crate::scene::Setup;
 use crate::trial::Verdict;
 use std::sync::Arc;
 use std::time::Instant;
@@ -29,8 +30,25 @@ pub struct SceneInfo {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speed {
     pub wanted: f64,
+    /// Slow motion is on: a part of what is wanted.
+    pub slow: bool,
     /// Averaged over about half a second.
     pub achieved: f64,
+}
+
+/// Speed in slow motion, in parts of the wanted one.
+pub const SLOW: f64 = 0.1;
+
+impl Speed {
+    /// What the simulation tries to keep to at the moment.
+    pub fn rate(&self) -> f64 {
+        if self.slow { SLOW * self.wanted } else { self.wanted }
+    }
+
+    /// Whether it clearly falls behind.
+    pub fn falls_short(&self) -> bool {
+        self.achieved < 0.95 * self.rate()
+    }
 }
 
 /// One state of the simulation, whole. The window reads it and never waits for the next.
@@ -58,8 +76,12 @@ pub struct Frame {
     pub speed: Speed,
     /// What went wrong last, and how to mend it, until dismissed or resolved.
     pub fault: Option<String>,
+    /// What happened last that a user should know, until it is dismissed or out of date.
+    pub note: Option<Arc<str>>,
     /// The file that the scene was last written to, until it is edited or left.
     pub saved: Option<String>,
+    /// The scene as it was opened, if it was edited since then and not written to a file.
+    pub unsaved: Option<Arc<Setup>>,
     /// Names of the edits that undo and redo would act on.
     pub undo: Option<String>,
     pub redo: Option<String>,

@@ -1,6 +1,7 @@
 //! The sandbox without its window: the simulation thread, the commands it takes, the frames it publishes, the camera, the
 //! tools of the canvas, the table of actions, undo.
 
+pub mod blank;
 pub mod camera;
 pub mod command;
 pub mod companion;
@@ -12,9 +13,11 @@ pub mod keys;
 pub mod laboratory;
 pub mod pick;
 pub mod plot_data;
+pub mod rescue;
 pub mod session;
 mod setting;
 mod simulation;
+mod takeback;
 pub mod tools;
 pub mod trace;
 
@@ -25,6 +28,7 @@ pub use frame::{Frame, SceneInfo, Speed};
 pub use keys::Action;
 pub use laboratory::{Lab, LabOrder, LabReport};
 pub use plot_data::{Plots, Sample};
+pub use rescue::rescue;
 pub use session::Session;
 pub use simulation::{Beside, frame_after};
 pub use tools::{Button, Feedback, Join, Modifiers, Phase, PointerEvent, Tool, Tools};

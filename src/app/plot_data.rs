@@ -21,12 +21,26 @@ pub struct Sample {
     pub step_us: f64,
     /// Estimate of the step's local error, in parts of an island's size; 0 where nothing estimates it.
     pub local_error: f64,
+    /// Groups whose accuracy was not kept in the step: see [`lapses`].
+    pub lapses: usize,
+}
+
+/// In how many groups the step did not keep the accuracy that was asked for. The one place that says so: the status bar, the
+/// plot and the panel all ask here.
+pub fn lapses(report: &StepReport) -> usize {
+    report.given_up
 }
 
 impl Sample {
     /// What a step left behind.
     pub fn new(measures: Measures, report: &StepReport) -> Sample {
-        Sample { measures, stage_us: report.stage_us, step_us: report.step_us, local_error: report.local_error }
+        Sample {
+            measures,
+            stage_us: report.stage_us,
+            step_us: report.step_us,
+            local_error: report.local_error,
+            lapses: lapses(report),
+        }
     }
 }
 

@@ -1,9 +1,10 @@
 //! The simulation without its thread: the world, its stepper and its history, and what every command does to them.
 
+use super::blank::{self, blank};
 use super::command::{Command, Edit};
-use super::companion::{Beginning, Input, Links, Report, Standing, Waker};
+use super::companion::{Beginning, Extent, Input, Links, Report, Standing, Waker};
 use super::edit;
-use super::frame::{Frame, SceneInfo, Speed};
+use super::frame::{Frame, SLOW, SceneInfo, Speed};
 use super::history::{History, State};
 use super::laboratory::{Job, LabOrder, Laboratory};
 use super::plot_data::{Plots, Sample};
@@ -17,6 +18,7 @@ use crate::text::named;
 use crate::trial::Trial;
 use std::ffi::OsStr;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -44,9 +46,16 @@ pub(super) struct Simulation {
     previous_angle: Vec<f64>,
     running: bool,
     speed: f64,
+    slow: bool,
     fault: Option<String>,
+    /// What happened last that a user should know.
+    note: Option<Arc<str>>,
     /// The file that the scene was last written to, until it is edited or left.
     saved: Option<String>,
+    /// It was edited since it was opened or written to a file.
+    edited: bool,
+    /// The last entry of the history is of the slash at hand.
+    slashed: bool,
     /// What the last edit made or changed.
     touched: Arc<Vec<Id>>,
     opened: u64,
@@ -54,6 +63,10 @@ pub(super) struct Simulation {
     published: Option<Arc<Frame>>,
     /// The worlds that follow this one.
     links: Links,
+    /// The truth was asked for, also where it must be computed.
+    ghost: bool,
+    /// The exact motion of the scene from its start is known.
+    known: bool,
     laboratory: Laboratory,
     waker: Waker,
     /// Nothing but the method was changed since the scene was opened.
@@ -66,7 +79,7 @@ impl Simulation {
     pub(super) fn new(setup: Setup, waker: Waker) -> Simulation {
         let (stepper, fault) = stepper(setup.method);
         let start = Arc::new(setup);
-        Simulation {
+        let mut simulation = Simulation {
             world: start.world.clone(),
             stepper,
             scene: Arc::new(info(&start, 1)),
@@ -80,27 +93,37 @@ impl Simulation {
             previous_angle: Vec::new(),
             running: fault.is_none(),
             speed: 1.0,
+            slow: false,
             fault,
+            note: None,
             saved: None,
+            edited: false,
+            slashed: false,
             touched: Arc::default(),
             opened: 1,
             published: None,
             links: Links::default(),
+            ghost: false,
+            known: start.known_motion().is_some(),
             laboratory: Laboratory::default(),
             waker,
             untouched: true,
             trial: Trial::of(&start),
             start,
+        };
+        if let Err(error) = simulation.follow_truth() {
+            simulation.fault.get_or_insert(error);
         }
+        simulation
     }
 
     pub(super) fn running(&self) -> bool {
         self.running
     }
 
-    /// Wanted speed [simulated seconds a second].
+    /// Speed to keep to at the moment [simulated seconds a second].
     pub(super) fn speed(&self) -> f64 {
-        self.speed
+        if self.slow { SLOW * self.speed } else { self.speed }
     }
 
     pub(super) fn time(&self) -> f64 {
@@ -134,9 +157,11 @@ impl Simulation {
             trace: self.trace.clone(),
             plan: self.stepper.plan(&self.world).sentence().to_string(),
             running: self.running,
-            speed: Speed { wanted: self.speed, achieved },
+            speed: Speed { wanted: self.speed, slow: self.slow, achieved },
             fault: self.fault.clone(),
+            note: self.note.clone(),
             saved: self.saved.clone(),
+            unsaved: self.edited.then(|| self.start.clone()),
             undo: self.history.undo_name().map(str::to_owned),
             redo: self.history.redo_name().map(str::to_owned),
             touched: self.touched.clone(),
@@ -224,18 +249,16 @@ impl Simulation {
             Command::Restart => {
                 // How to step was chosen for this scene, perhaps to compare it over the same motion.
                 let setup = Setup { method: *self.stepper.method(), ..(*self.start).clone() };
-                self.open(setup, "Restart");
+                let name = format!("Restart {}", setup.name);
+                self.open(setup, name);
             }
             Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
             Command::Speed(speed) => return Err(format!("speed is {speed}, but must be between 0.01 and 10")),
+            Command::Slow(slow) => self.slow = slow,
             Command::Open(name) => self.open_scene(name.as_ref())?,
             Command::OpenFile(path) => self.open_scene(path.as_os_str())?,
-            Command::SaveAs(path) => {
-                let setup =
-                    Setup { world: self.world.clone(), method: *self.stepper.method(), ..(*self.start).clone() };
-                scene::save(&path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
-                self.saved = Some(named(&path));
-            }
+            Command::New => self.open(blank(), "New scene".into()),
+            Command::SaveAs(path) => self.save(&path)?,
             Command::Method(method) => {
                 let name = setting::method(self.stepper.method(), &method);
                 let rate = (self.stepper.method().hz != method.hz).then_some(Input::Rate(method.hz));
@@ -258,8 +281,8 @@ impl Simulation {
                 name.iter().for_each(|_| self.tell(&Input::Tuning(tuning)));
             }
             Command::Truth(on) => {
-                let beginning = self.beginning();
-                self.links.set_truth(on, beginning, &self.waker).map_err(|error| no_thread("truth", &error))?;
+                self.ghost = on;
+                self.follow_truth()?;
             }
             Command::Rival(method) => {
                 if let Some(method) = &method {
@@ -280,7 +303,14 @@ impl Simulation {
                 self.world.set_grip(None).map_err(text)?;
                 self.tell(&Input::Release);
             }
-            Command::Edit(edit) => self.edit(&edit)?,
+            Command::Edit(edit) => {
+                self.slashed = false;
+                self.edit(&edit)?;
+            }
+            Command::Slash { from, to, first } => {
+                self.slashed &= !first;
+                self.edit(&Edit::Cut(from, to))?;
+            }
             Command::Undo => {
                 let now = self.state();
                 if let Some(state) = self.history.undo(now) {
@@ -294,6 +324,7 @@ impl Simulation {
                 }
             }
             Command::DismissFault => self.fault = None,
+            Command::DismissNote => self.note = None,
             Command::Quit => self.running = false,
         }
         Ok(())
@@ -331,6 +362,17 @@ impl Simulation {
         }
     }
 
+    /// Lets the truth follow as far as it is wanted: what is known costs nothing.
+    fn follow_truth(&mut self) -> Result<(), String> {
+        let extent = match (self.ghost, self.known) {
+            (true, _) => Some(Extent::Computed),
+            (false, true) => Some(Extent::Known),
+            (false, false) => None,
+        };
+        let beginning = self.beginning();
+        self.links.set_truth(extent, beginning, &self.waker).map_err(|error| no_thread("truth", &error))
+    }
+
     /// Where a companion would begin to follow now.
     fn beginning(&self) -> Beginning {
         Beginning {
@@ -343,21 +385,48 @@ impl Simulation {
     }
 
     fn state(&self) -> State {
-        State { world: self.world.clone(), method: *self.stepper.method(), start: self.start.clone() }
+        let (world, method) = (self.world.clone(), *self.stepper.method());
+        State { world, method, start: self.start.clone(), edited: self.edited }
     }
 
     fn open_scene(&mut self, name_or_path: &OsStr) -> Result<(), String> {
         let setup = scene::open(name_or_path).map_err(|error| error.to_string())?;
-        self.open(setup, "Open");
+        let name = format!("Open {}", setup.name);
+        self.open(setup, name);
         Ok(())
     }
 
     /// Starts a scene, which can be undone. A method that cannot be used shows a fault and changes nothing.
-    fn open(&mut self, setup: Setup, name: &str) {
+    fn open(&mut self, setup: Setup, name: String) {
         let before = self.state();
-        let state = State { world: setup.world.clone(), method: setup.method, start: Arc::new(setup) };
-        self.history.record(format!("{name} {}", state.start.name), before);
+        let (world, method) = (setup.world.clone(), setup.method);
+        let state = State { world, method, start: Arc::new(setup), edited: false };
+        self.history.record_leap(name, before);
+        let title = if self.scene.title.is_empty() { &self.scene.name } else { &self.scene.title };
+        let lost = self.edited.then(|| title.clone());
         self.restore(state);
+        self.note = lost.map(|title| {
+            format!("“{title}” had changes that were not saved. Undo [Ctrl-Z] brings it back as it was.").into()
+        });
+    }
+
+    /// Writes the scene as it stands to a file. A new scene is called after its first one.
+    fn save(&mut self, path: &Path) -> Result<(), String> {
+        let mut setup = Setup { world: self.world.clone(), method: *self.stepper.method(), ..(*self.start).clone() };
+        let is_new = setup.name == blank::NAME;
+        if let Some(stem) = path.file_stem().filter(|_| is_new) {
+            (setup.title, setup.about) = (stem.to_string_lossy().into_owned(), String::new());
+        }
+        scene::save(path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
+        if is_new {
+            let (name, file) = (path.to_string_lossy().into_owned(), Some(path.to_owned()));
+            let (title, about) = (setup.title, setup.about);
+            self.start = Arc::new(Setup { name, file, title, about, ..(*self.start).clone() });
+            self.scene = Arc::new(info(&self.start, self.opened));
+        }
+        self.saved = Some(named(path));
+        (self.edited, self.note) = (false, None);
+        Ok(())
     }
 
     /// Changes the setting `name`, if any is another one than before. `last` is the setting that the command before changed,
@@ -374,13 +443,10 @@ impl Simulation {
         };
         let now = Instant::now();
         let goes_on = last.is_some_and(|(last, when)| last == name && now.duration_since(when) <= SETTLING);
-        let before = (!goes_on).then(|| self.state());
+        let before = self.state();
         change(self)?;
-        if let Some(before) = before {
-            self.history.record(format!("Change {name}"), before);
-        }
+        self.note_edit(format!("Change {name}"), before, goes_on);
         self.setting = Some((name, now));
-        self.saved = None;
         // Energies follow gravity and stiffness at once, also while paused.
         self.measures = Measures::of(&self.world);
         Ok(())
@@ -393,8 +459,8 @@ impl Simulation {
             Ok(touched) => {
                 self.tell(&Input::of_edit(edit, &touched));
                 self.touched = Arc::new(touched);
-                self.saved = None;
-                self.history.record(edit.name(), before);
+                self.note_edit(edit.name(), before, self.slashed);
+                self.slashed = matches!(edit, Edit::Cut(..));
                 self.measure_anew();
             }
             Err(error) => {
@@ -405,11 +471,25 @@ impl Simulation {
         Ok(())
     }
 
+    /// Keeps what is needed to take back the edit just made; one that goes on is taken back with the part before it.
+    fn note_edit(&mut self, name: String, before: State, goes_on: bool) {
+        self.saved = None;
+        self.note = None;
+        self.edited = true;
+        let after = self.state();
+        if goes_on {
+            self.history.extend(&before, after);
+        } else {
+            self.history.record(name, before, after);
+        }
+    }
+
     /// Takes up a state from the history or the start of a scene. A hold is let go: it belongs to the other state.
     fn restore(&mut self, state: State) {
         if !Arc::ptr_eq(&state.start, &self.start) {
             self.opened += 1;
             self.scene = Arc::new(info(&state.start, self.opened));
+            self.known = state.start.known_motion().is_some();
             self.plots.clear();
         }
         self.world = state.world;
@@ -418,7 +498,9 @@ impl Simulation {
         // A new stepper: the old one's plan and memory belong to another world.
         (self.stepper, self.fault) = stepper(state.method);
         self.plots.rewind(self.world.time());
-        self.saved = None;
+        (self.saved, self.note) = (None, None);
+        self.edited = state.edited;
+        self.slashed = false;
         self.report = StepReport::default();
         self.measure_anew();
         // A state from the history may be of an untouched run, but only its start is known to be.
@@ -427,6 +509,9 @@ impl Simulation {
         if self.links.any() {
             let beginning = self.beginning();
             self.links.begin(&beginning);
+        }
+        if let Err(error) = self.follow_truth() {
+            self.fault.get_or_insert(error);
         }
     }
 

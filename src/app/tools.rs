@@ -108,6 +108,7 @@ enum Gesture {
     Slash {
         from: DVec2,
         cut: DVec2,
+        first: bool,
     },
     Join {
         from: Anchor,
@@ -274,7 +275,7 @@ impl Tools {
                 None => self.gesture = Gesture::Box { from: free },
             },
             Tool::Select => self.gesture = Gesture::Box { from: free },
-            Tool::Cut => self.gesture = Gesture::Slash { from: free, cut: free },
+            Tool::Cut => self.gesture = Gesture::Slash { from: free, cut: free, first: true },
             Tool::Spawn(kind) => return vec![Command::Edit(Edit::Spawn { kind, at, size: spawn_size(camera) })],
             Tool::Join(_) => {
                 let (from, start) = anchor(event, world, camera);
@@ -292,9 +293,9 @@ impl Tools {
             return Vec::new();
         }
         self.track(event, world, camera);
-        if let Gesture::Slash { cut, .. } = &mut self.gesture {
+        if let Gesture::Slash { cut, first, .. } = &mut self.gesture {
             let from = std::mem::replace(cut, camera.to_world(event.canvas));
-            return vec![Command::Edit(Edit::Cut(from, *cut))];
+            return vec![Command::Slash { from, to: *cut, first: std::mem::take(first) }];
         }
         if let Gesture::Grip { pressed, moved, .. } = &mut self.gesture {
             *moved |= pressed.distance(event.canvas) > CLICK_REACH;
@@ -325,7 +326,7 @@ impl Tools {
                 self.choose(found, event.modifiers);
                 Vec::new()
             }
-            (Gesture::Slash { from, .. }, _) => vec![Command::Edit(Edit::Cut(from, to))],
+            (Gesture::Slash { from, first, .. }, _) => vec![Command::Slash { from, to, first }],
             (Gesture::Join { from, start }, Tool::Join(kind)) => {
                 let (end, to) = anchor(event, world, camera);
                 join(world, camera, kind, (from, start), (end, to)).map(Command::Edit).into_iter().collect()

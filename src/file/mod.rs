@@ -10,4 +10,4 @@ mod whole;
 pub use error::WriteError;
 pub use read::{Unreadable, read_bounded};
 pub use same::{behind_links, is_same, is_special};
-pub use whole::{Sink, WholeFile, check_writable, write_whole};
+pub use whole::{Sink, WholeFile, check_writable, write_new, write_whole};

@@ -95,6 +95,13 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     file.commit()
 }
 
+/// Writes a file whole where nothing of that name is; otherwise the error is of the kind `AlreadyExists`.
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    // An empty file holds the name, which two programs may want at once.
+    File::create_new(path)?;
+    write_whole(path, bytes).inspect_err(|_| drop(std::fs::remove_file(path)))
+}
+
 /// Whether a file could be written there, before something is calculated that could not be kept.
 pub fn check_writable(path: &Path) -> Result<(), WriteError> {
     if is_special(path) { Ok(()) } else { WholeFile::create(path).map(drop) }
@@ -175,6 +182,16 @@ mod tests {
         check_writable(&folder.path().join("b.csv")).expect("a place");
         assert_eq!(names(folder.path()), Vec::<String>::new());
         assert!(check_writable(&folder.path().join("missing/b.csv")).is_err());
+    }
+
+    #[test]
+    fn a_new_file_replaces_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.ron");
+        write_new(&path, b"first").expect("a place");
+        assert_eq!(write_new(&path, b"second").expect_err("it is there").kind, ErrorKind::AlreadyExists);
+        assert_eq!(std::fs::read(&path).expect("the file"), b"first");
+        assert_eq!(names(folder.path()), ["a.ron"]);
     }
 
     #[test]

@@ -20,7 +20,7 @@ const OPACITY: f64 = 0.5;
 /// Draws the ghost, if the frame has one that is not too late.
 pub(super) fn draw_ghost(picture: &mut Picture, scene: &Scene<'_>) {
     let world = &scene.frame.world;
-    let Some(truth) = scene.frame.companions.truth.as_ref() else { return };
+    let Some(truth) = scene.frame.companions.truth.as_ref().filter(|_| scene.options.ghost) else { return };
     let report = truth.report();
     let fits = *report.offsets.bodies == world.bodies().id;
     if !fits || report.offsets.bodies.is_empty() || world.time() - report.time > LATEST {

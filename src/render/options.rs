@@ -15,6 +15,8 @@ pub struct ViewOptions {
     pub tension: bool,
     /// Colours moving bodies by their speed.
     pub speed: bool,
+    /// Draws the truth, where the frame has one.
+    pub ghost: bool,
     /// Bodies, constraints and walls.
     pub selected: Vec<Id>,
     pub hovered: Option<Id>,
@@ -34,6 +36,7 @@ impl Default for ViewOptions {
             trails: false,
             tension: true,
             speed: false,
+            ghost: true,
             selected: Vec::new(),
             hovered: None,
             grip_cursor: None,

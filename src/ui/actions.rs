@@ -36,9 +36,11 @@ impl Shell {
             Action::Restart => scene.commands.push(Command::Restart),
             Action::Slower => scene.commands.push(Command::Speed(speed(frame.speed.wanted, 0.5))),
             Action::Faster => scene.commands.push(Command::Speed(speed(frame.speed.wanted, 2.0))),
+            Action::SlowMotion => scene.commands.push(Command::Slow(!frame.speed.slow)),
             Action::Undo if frame.undo.is_some() => scene.commands.push(Command::Undo),
             Action::Redo if frame.redo.is_some() => scene.commands.push(Command::Redo),
             Action::Undo | Action::Redo => {}
+            Action::NewScene => scene.commands.push(Command::New),
             Action::PreviousScene => scene.commands.extend(self.neighbour(frame, -1)),
             Action::NextScene => scene.commands.extend(self.neighbour(frame, 1)),
             Action::ZoomIn => scene.camera.zoom_at(scene.camera.size / 2.0, ZOOM),
@@ -163,12 +165,11 @@ fn fit(frame: &Frame, camera: &mut Camera, ids: &[Id]) {
     }
 }
 
-/// The actions whose keys were pressed in this pass. None while a text field has the keyboard, except those with Ctrl or a
-/// function key that no text field uses, and Escape.
+/// The actions whose keys were pressed in this pass. While something else than the scene reads the keyboard (`typing`) only
+/// those with Ctrl or a function key that no text field uses, and Escape.
 ///
 /// Space pans while the pointer is dragged, so it runs or pauses when it is let go without that.
-pub fn pressed(ui: &egui::Ui, space_panned: &mut bool) -> Vec<Action> {
-    let typing = ui.ctx().text_edit_focused();
+pub fn pressed(ui: &egui::Ui, typing: bool, space_panned: &mut bool) -> Vec<Action> {
     // Enter and Space press a button that was reached by Tab.
     let focused = ui.memory(|memory| memory.focused()).is_some() && !canvas_focused(ui);
     ui.input(|input| {
@@ -185,10 +186,18 @@ pub fn pressed(ui: &egui::Ui, space_panned: &mut bool) -> Vec<Action> {
             if space && std::mem::take(space_panned) {
                 continue;
             }
-            actions.extend(action_of(*key, *modifiers).filter(|action| !typing || allowed_while_typing(*action)));
+            // That one lasts as long as its key is held: see `slow_motion_held`.
+            let begins = |action: &Action| *action != Action::SlowMotion && (!typing || allowed_while_typing(*action));
+            actions.extend(action_of(*key, *modifiers).filter(begins));
         }
         actions
     })
+}
+
+/// Whether the key of slow motion is held now.
+pub fn slow_motion_held(ui: &egui::Ui) -> bool {
+    let key = Action::SlowMotion.entry().shortcuts.first().and_then(|shortcut| Key::from_name(shortcut.key));
+    ui.input(|input| !input.modifiers.command && key.is_some_and(|key| input.key_down(key)))
 }
 
 /// Whether the scene itself has the keyboard.
@@ -205,12 +214,41 @@ fn allowed_while_typing(action: Action) -> bool {
         action,
         Action::OpenByName
             | Action::Save
+            | Action::NewScene
             | Action::Palette
             | Action::Help
             | Action::FullScreen
             | Action::Quit
             | Action::Escape
     )
+}
+
+/// Whether a key begins something that changes what the next keys and clicks mean, so that they must wait until it is done.
+pub fn turns(key: Key, modifiers: Modifiers) -> bool {
+    match action_of(key, modifiers) {
+        Some(
+            Action::ToggleRun
+            | Action::StepOnce
+            | Action::Slower
+            | Action::Faster
+            | Action::SlowMotion
+            | Action::ZoomIn
+            | Action::ZoomOut
+            | Action::FitAll
+            | Action::FitSelection
+            | Action::Undo
+            | Action::Redo
+            | Action::ToggleTheme
+            | Action::Toggle(_),
+        )
+        | None => key == Key::Space,
+        Some(_) => true,
+    }
+}
+
+/// Whether a key begins an action even while a field reads the keyboard.
+pub fn works_while_typing(key: Key, modifiers: Modifiers) -> bool {
+    action_of(key, modifiers).is_some_and(allowed_while_typing)
 }
 
 fn action_of(key: Key, modifiers: Modifiers) -> Option<Action> {

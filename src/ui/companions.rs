@@ -47,6 +47,10 @@ pub fn status(frame: &Frame, companion: &Companion, colours: &theme::Colours) ->
         (Standing::Parted { after, chaotic }, _) => {
             (format!("unknown: {} after {after:.2} s", why_parted(*chaotic)), colours.warning)
         }
+        (Standing::Over { after, touched: true }, _) => (format!("not known: changed at {after:.2} s"), colours.weak),
+        (Standing::Over { after, touched: false }, _) => {
+            (format!("{} RMS over its {after:.2} s", format::si(report.so_far, "m")), colours.text)
+        }
         (Standing::Lost(_), _) => ("given up".into(), colours.warning),
         (_, Some(gap)) => (gap_text(gap, report.length) + &late, colours.text),
         (_, None) => ("no sample at this rate".into(), colours.weak),
@@ -81,6 +85,12 @@ fn standing(report: &Report) -> String {
              neither is the truth. Restart for a new one.",
             why_parted(*chaotic)
         ),
+        Standing::Over { touched: true, .. } => {
+            "The motion of this scene is known, but it was changed. Ghost [Shift-H] computes the exact motion from now on.".into()
+        }
+        Standing::Over { after, .. } => {
+            format!("The motion is known for {after:.2} s. Ghost [Shift-H] computes it from now on.")
+        }
         Standing::Following => "The same scene and the same inputs under the other method.".into(),
         Standing::Lost(why) => format!("Given up at {:.2} s: {why}.", report.time),
     }
@@ -184,6 +194,15 @@ fn choose(ui: &mut Ui, method: &mut Method, first: &Method) {
     if method.automatic || method.integrator.is_direct() {
         widgets::slider(ui, &ACCURACY, &mut method.accuracy, Some(first.accuracy));
     }
+    if method.automatic {
+        let help = "How B steps what its plan does not carry whole.";
+        widgets::fold(ui, "B by hand", help, |ui| choose_by_hand(ui, method, first));
+    } else {
+        choose_by_hand(ui, method, first);
+    }
+}
+
+fn choose_by_hand(ui: &mut Ui, method: &mut Method, first: &Method) {
     widgets::whole_slider(ui, &SUBSTEPS, &mut method.substeps, Some(first.substeps));
     widgets::whole_slider(ui, &ITERATIONS, &mut method.iterations, Some(first.iterations));
     let integrators = Integrator::ALL.map(|kind| (kind, kind.name(), integrator_help(kind)));

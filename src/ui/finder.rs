@@ -62,22 +62,24 @@ fn scene_line(scene: &Shipped) -> Line {
 /// Shows the palette over everything. Returns what was chosen; `state.finder` is gone when it is closed.
 pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Option<Found> {
     let mut finder = state.finder.take()?;
-    let focus = state.takes_focus(Field::ActionQuery);
+    state.takes_focus(Field::ActionQuery);
     let area = Modal::default_area(Id::unique("finder")).anchor(Align2::CENTER_TOP, vec2(0.0, 96.0));
     let frame = egui::Frame::popup(&ctx.style_of(ctx.theme())).inner_margin(8);
     let modal = Modal::new(Id::unique("finder")).area(area).frame(frame).show(ctx, |ui| {
         ui.set_width(480.0);
-        let lines = find(&finder.query, scenes);
-        let count = lines.len();
         // Before the field, which would take the arrows itself.
         let moved =
             ui.input(|input| i32::from(input.key_pressed(Key::ArrowDown)) - i32::from(input.key_pressed(Key::ArrowUp)));
         let edit =
             TextEdit::singleline(&mut finder.query).hint_text("Find an action or a scene").desired_width(f32::INFINITY);
         let response = ui.add(edit).accessible_name("Action or scene");
-        if focus {
+        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        // While the list is open whatever is typed belongs to it, also after a click beside the field or an Enter in vain.
+        if !response.has_focus() {
             response.request_focus();
         }
+        let lines = find(&finder.query, scenes);
+        let count = lines.len();
         let before = finder.chosen;
         if response.changed() {
             finder.chosen = 0;
@@ -85,7 +87,6 @@ pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Optio
             finder.chosen = (finder.chosen as i32 + moved).clamp(0, count as i32 - 1) as usize;
         }
         let follow = response.changed() || finder.chosen != before;
-        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         response.on_hover_text("Type some letters; arrows choose, Enter does it. [Ctrl-K]");
         ui.add_space(theme::GRID);
         let mut chosen = entered.then_some(finder.chosen);

@@ -23,6 +23,7 @@ pub mod state;
 mod status;
 pub mod theme;
 mod transport;
+mod turns;
 mod view;
 mod widgets;
 

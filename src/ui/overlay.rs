@@ -10,7 +10,10 @@ use crate::engine::{DVec2, Id};
 use crate::render::grid::Axis;
 use crate::render::picture::VELOCITY_ARROW;
 use crate::render::{self, colour, grid};
-use egui::{Align2, Color32, FontId, Galley, Mesh, Painter, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{
+    Align, Align2, Color32, FontId, Galley, Label, Mesh, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, Ui, pos2,
+    vec2,
+};
 use std::sync::Arc;
 
 /// The ranges of the picture's legends, from `Picture`.
@@ -191,6 +194,15 @@ impl Overlay<'_> {
         painter.rect(plate, theme::GRID, colours.overlay, Stroke::new(1.0, colours.line), StrokeKind::Inside);
         painter.galley(plate.min + vec2(6.0, 3.0), galley, colours.text);
     }
+}
+
+/// What to do with a scene in which there is nothing yet.
+pub fn hint(ui: &mut Ui, canvas: Rect) {
+    const WORDS: &str = "Nothing is here yet.\nPress a key 1 … 7, or choose something under Add, and click here to place it.\n\
+                         W draws a wall, J, K and L join. Ctrl-O opens a scene.";
+    let size = vec2((canvas.width() - 8.0 * theme::GRID).clamp(1.0, 420.0), 80.0);
+    let words = RichText::new(WORDS).color(theme::colours(ui).weak);
+    ui.put(Rect::from_center_size(canvas.center(), size), Label::new(words).wrap().halign(Align::Center));
 }
 
 /// "Body 12 · 3.20 m/s · 0.500 kg", "Rod 44 · 12.3 N pull", "Wall 3".

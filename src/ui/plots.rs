@@ -9,7 +9,8 @@ use crate::engine::Stage;
 use crate::measure::Measures;
 use crate::render::legend::{SteadyRange, step_down, step_up};
 use egui::{Color32, FontId, Id, Rangef, Role, Sense, Shape, Stroke, Ui, Vec2b, WidgetInfo, pos2};
-use egui_plot::{AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotUi, VLine};
+use egui_plot::{AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints};
+use egui_plot::{PlotUi, Points, VLine};
 use std::time::Instant;
 
 /// Points a curve: more cannot be told apart on a screen and cost time in every pass.
@@ -95,6 +96,10 @@ impl<const N: usize> Curves<N> {
     fn line(&self, index: usize, map: impl Fn(f64) -> f64) -> PlotPoints<'static> {
         let points = self.times.iter().zip(&self.values);
         PlotPoints::new(points.map(|(time, values)| [*time, map(values[index])]).collect())
+    }
+
+    fn times_where(&self, wanted: impl Fn(&[f64; N]) -> bool) -> impl Iterator<Item = f64> {
+        self.times.iter().zip(&self.values).filter(move |(_, values)| wanted(values)).map(|(time, _)| *time)
     }
 
     fn largest(&self, value: impl Fn(&[f64; N]) -> f64) -> f64 {
@@ -184,10 +189,10 @@ impl Plots {
     }
 
     fn local_error(&mut self, ui: &mut Ui, frame: &Frame) {
-        let curves = Curves::of(frame, Fold::Largest, |sample| [sample.local_error]);
+        let curves = Curves::of(frame, Fold::Largest, |sample| [sample.local_error, sample.lapses as f64]);
         let wanted = frame.method.accuracy;
         self.local_error.update(curves.largest(|values| values[0]).max(wanted), Instant::now());
-        let theme::Colours { series, weak, .. } = theme::colours(ui);
+        let theme::Colours { series, weak, warning, .. } = theme::colours(ui);
         let high = self.local_error.top().log10().ceil();
         let low = high - ERROR_DECADES;
         let label = |mark: GridMark| format!("1e{}", mark.value);
@@ -195,6 +200,9 @@ impl Plots {
         plot(ui, "Local error plot", frame, Rise { range: [low, high], decades: true }, label, |plot| {
             plot.line(Line::new("Local error", curves.line(0, map)).color(series[0]).width(1.5));
             plot.hline(HLine::new("Wanted", map(wanted)).color(weak).style(LineStyle::dashed_loose()));
+            // At the top, where no curve hides them.
+            let lapsed: Vec<[f64; 2]> = curves.times_where(|values| values[1] > 0.0).map(|time| [time, high]).collect();
+            plot.points(Points::new("Not kept", lapsed).shape(MarkerShape::Down).radius(4.0).color(warning));
         });
     }
 
@@ -264,8 +272,8 @@ fn energies(m: &Measures) -> [f64; 4] {
 }
 
 /// Time that a step may take to keep up with the wanted speed [µs].
-fn budget(frame: &Frame) -> f64 {
-    1e6 / (frame.method.hz * frame.speed.wanted.max(1e-6))
+pub fn budget(frame: &Frame) -> f64 {
+    1e6 / (frame.method.hz * frame.speed.rate().max(1e-6))
 }
 
 const ENERGIES: [(&str, &str); 4] = [
@@ -343,7 +351,7 @@ fn violation_legend(ui: &mut Ui, frame: &Frame, logarithmic: &mut bool) {
 }
 
 fn local_error_legend(ui: &mut Ui, frame: &Frame) {
-    let theme::Colours { series, weak, .. } = theme::colours(ui);
+    let theme::Colours { series, weak, warning, .. } = theme::colours(ui);
     let value = match frame.report.local_error {
         0.0 => "not estimated".to_owned(),
         error => format!("{error:.0e}"),
@@ -354,6 +362,19 @@ fn local_error_legend(ui: &mut Ui, frame: &Frame) {
     let help =
         "Wanted accuracy of the motion after a second or so: the dashed line. Each step has to stay well below it.";
     marked(ui, dashed(weak), "Wanted", &format!("{:.0e}", frame.method.accuracy), help);
+    let lapsed = frame.plots.read().iter().filter(|sample| sample.lapses > 0).count();
+    if lapsed > 0 {
+        let help = "Steps of the last 20 s in which the accuracy was not kept: the marks along the top.";
+        marked(ui, down_mark(warning), "Not kept", &format!("{lapsed} steps"), help);
+    }
+}
+
+/// The mark of a step that did not keep its accuracy, for [`marked`].
+fn down_mark(colour: Color32) -> impl Fn(Rangef, f32) -> Vec<Shape> {
+    move |at, y| {
+        let corners = [(-4.0, -4.0), (4.0, -4.0), (0.0, 4.0)].map(|(dx, dy)| pos2(at.center() + dx, y + dy));
+        vec![Shape::convex_polygon(corners.to_vec(), colour, Stroke::NONE)]
+    }
 }
 
 /// A dashed line for [`marked`].

@@ -11,8 +11,11 @@ use egui::{Align, Key, Label, RichText, ScrollArea, TextEdit, Ui};
 
 /// The sections "Scenes" and "Save as…".
 pub fn show(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
-    widgets::section(ui, "Scenes", true, |ui| list(ui, frame, scenes, state, commands));
-    widgets::section(ui, "Save", true, |ui| save(ui, frame, state, commands));
+    let wanted = |state: &State, field| (state.focus == Some(field)).then_some(true);
+    let open = wanted(state, Field::SceneFilter);
+    widgets::section_opened(ui, "Scenes", open, |ui| list(ui, frame, scenes, state, commands));
+    let open = wanted(state, Field::SavePath);
+    widgets::section_opened(ui, "Save", open, |ui| save(ui, frame, state, commands));
 }
 
 /// The scenes whose name or title holds every word of `filter`, in their order.
@@ -41,11 +44,13 @@ pub fn target(scenes: &[Shipped], filter: &str) -> Option<String> {
     Some(scene.map_or(text, |scene| scene.name).to_owned())
 }
 
-/// Selects what a text field holds, so that typing replaces it.
-fn select_all(ui: &Ui, id: egui::Id, text: &str) {
-    let mut edit = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+/// Gives a text field the keyboard, in sight, and selects what it holds, so that typing replaces it.
+fn take_up(ui: &Ui, field: &egui::Response, text: &str) {
+    field.request_focus();
+    field.scroll_to_me(None);
+    let mut edit = TextEditState::load(ui.ctx(), field.id).unwrap_or_default();
     edit.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()))));
-    edit.store(ui.ctx(), id);
+    edit.store(ui.ctx(), field.id);
 }
 
 fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
@@ -53,8 +58,7 @@ fn list(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, comma
     let edit = TextEdit::singleline(&mut state.scene_filter).hint_text(hint).desired_width(f32::INFINITY);
     let response = ui.add(edit).accessible_name("Find a scene");
     if state.takes_focus(Field::SceneFilter) {
-        response.request_focus();
-        select_all(ui, response.id, &state.scene_filter);
+        take_up(ui, &response, &state.scene_filter);
     }
     let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     response.on_hover_text("Type part of a name, or the path of a scene file; Enter opens, Esc clears. [Ctrl-O]");
@@ -127,7 +131,7 @@ fn save(ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Comman
         let edit = TextEdit::singleline(&mut state.save_path).hint_text("Path of a file").desired_width(width);
         let response = ui.add(edit).accessible_name("Path to save to");
         if state.takes_focus(Field::SavePath) {
-            response.request_focus();
+            take_up(ui, &response, &state.save_path);
         }
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         response.on_hover_text("File to write the scene to, as it stands; `tautline check` reads it too. [Ctrl-S]");

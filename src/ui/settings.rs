@@ -1,7 +1,8 @@
 //! The panel of the world and of the way it is stepped: gravity, drag, materials, time step, integrator, solver.
 
-use super::format;
 use super::widgets::{self, Number};
+use super::{companions, format, status, theme};
+use crate::app::plot_data::lapses;
 use crate::app::{Command, Frame};
 use crate::engine::{DVec2, Integrator, LinearSolver, Method, Solver, StepReport, Tuning};
 use egui::Ui;
@@ -252,41 +253,86 @@ fn overriding(ui: &mut Ui, number: &Number, value: &mut Option<f64>, first: f64)
 fn solver(ui: &mut Ui, frame: &Frame, defaults: &Defaults, commands: &mut Vec<Command>) {
     let mut method = frame.method;
     let help = "The plan chooses how islands that nothing can touch are carried, for the accuracy wanted. Up to some hundred free \
-                bodies go exactly from impact to impact. What else can touch is stepped as set below.";
+                bodies go exactly from impact to impact. What else can touch is stepped as set by hand.";
     let mut changed = widgets::switch(ui, "By accuracy", &mut method.automatic, Some(defaults.method.automatic), help);
     if method.automatic || method.integrator.is_direct() {
         changed |= widgets::slider(ui, &ACCURACY, &mut method.accuracy, Some(defaults.method.accuracy)).changed;
     }
+    outcome(ui, frame);
     changed |= step_length(ui, &mut method, &defaults.method);
-    changed |= widgets::whole_slider(ui, &SUBSTEPS, &mut method.substeps, Some(defaults.method.substeps)).changed;
-    changed |= widgets::whole_slider(ui, &ITERATIONS, &mut method.iterations, Some(defaults.method.iterations)).changed;
-    changed |= kinds(ui, &mut method, &defaults.method);
-    if method.solver == Solver::Pgs {
-        let help = "Start each solve from the last multipliers: far fewer iterations for stacks and ropes.";
-        changed |= widgets::switch(ui, "Warm starting", &mut method.warm_start, Some(defaults.method.warm_start), help);
-        changed |= widgets::slider(ui, &BAUMGARTE, &mut method.baumgarte, Some(defaults.method.baumgarte)).changed;
+    if method.automatic {
+        let help = "What the plan does not choose: how to step what can touch, or comes near.";
+        widgets::fold(ui, "By hand", help, |ui| {
+            widgets::note(ui, effect_by_hand(&frame.report));
+            changed |= by_hand(ui, &mut method, &defaults.method);
+        });
+    } else {
+        changed |= by_hand(ui, &mut method, &defaults.method);
     }
     if changed {
         commands.push(Command::Method(method));
     }
+}
+
+/// What the plan chose and why, what that costs, and how wrong it is.
+fn outcome(ui: &mut Ui, frame: &Frame) {
+    let report = &frame.report;
     if !frame.plan.is_empty() {
         widgets::note(ui, &frame.plan);
     }
-    if let Some(carried) = last_step(&frame.report) {
+    if let Some(carried) = last_step(report) {
         widgets::note(ui, &carried);
     }
-    if frame.report.near > 0 {
-        let islands = format::count(frame.report.near);
+    if report.near > 0 {
+        let islands = format::count(report.near);
         widgets::note(ui, &format!("Groups with something near, left to the substeps in this step: {islands}."));
     }
-    if frame.report.given_up > 0 {
-        let islands = format::count(frame.report.given_up);
+    if lapses(report) > 0 {
+        let islands = format::count(lapses(report));
         let note = format!(
-            "Groups left to the substeps in this step: {islands}. No position meets all their lengths, their springs ask for \
-             more than 1000 steps a frame, the linear solver failed, or free bodies overlap or roll over each other."
+            "Groups whose accuracy was not kept in this step, left to the substeps: {islands}. No position meets all their \
+             lengths, their springs ask for more than 1000 steps a frame, the linear solver failed, or free bodies overlap or \
+             roll over each other."
         );
         widgets::note(ui, &note);
     }
+    widgets::reading(ui, "Step time", status::cost(frame), status::COST_HELP);
+    if frame.method.automatic {
+        let estimate = match report.local_error {
+            0.0 => "not estimated".to_owned(),
+            error => format::minus(format!("{error:.0e}")),
+        };
+        let help = "Estimated error of the last step alone, in parts of an island's size. It has to stay well below the accuracy.";
+        widgets::reading(ui, "Local error", estimate, help);
+    }
+    if let Some(truth) = &frame.companions.truth {
+        let (text, _, help) = companions::status(frame, truth, &theme::colours(ui));
+        widgets::reading(ui, "Off truth", text, &help);
+    }
+}
+
+/// Whether the settings by hand have any effect at the moment.
+fn effect_by_hand(report: &StepReport) -> &'static str {
+    if report.tick > 0 && report.substeps == 0 {
+        "Nothing went through the substeps in the last step: these settings had no effect."
+    } else {
+        "These hold for what can touch, and for what something comes near to."
+    }
+}
+
+/// What is chosen by hand: substeps and what is done in each.
+fn by_hand(ui: &mut Ui, method: &mut Method, defaults: &Method) -> bool {
+    let mut changed = widgets::whole_slider(ui, &SUBSTEPS, &mut method.substeps, Some(defaults.substeps)).changed;
+    let substep = format::si(method.substep_seconds(), "s");
+    widgets::reading(ui, "Substep", substep, "Length of a substep: the step divided by the substeps.");
+    changed |= widgets::whole_slider(ui, &ITERATIONS, &mut method.iterations, Some(defaults.iterations)).changed;
+    changed |= kinds(ui, method, defaults);
+    if method.solver == Solver::Pgs {
+        let help = "Start each solve from the last multipliers: far fewer iterations for stacks and ropes.";
+        changed |= widgets::switch(ui, "Warm starting", &mut method.warm_start, Some(defaults.warm_start), help);
+        changed |= widgets::slider(ui, &BAUMGARTE, &mut method.baumgarte, Some(defaults.baumgarte)).changed;
+    }
+    changed
 }
 
 /// How groups went through the last step: "Last step: RATTLE, order 2, 4 substeps; tridiagonal; local error 2e-7 of the size."
@@ -329,8 +375,6 @@ fn step_length(ui: &mut Ui, method: &mut Method, defaults: &Method) -> bool {
     if step.changed {
         method.hz = 1000.0 / milliseconds;
     }
-    let substep = format::si(method.substep_seconds(), "s");
-    widgets::reading(ui, "Substep", substep, "Length of a substep: the step divided by the substeps.");
     rate.changed || step.changed
 }
 

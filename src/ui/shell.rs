@@ -7,10 +7,12 @@ use super::plots::Plots;
 use super::settings::Defaults;
 use super::state::{Field, PlotTab, State};
 use super::theme::{self, Theme};
+use super::turns::{Reader, Turns};
 use super::{
-    canvas, companions, fault, finder, help, inspector, palette, scenes, settings, status, transport, view, widgets,
+    canvas, companions, fault, finder, help, inspector, overlay, palette, scenes, settings, status, transport, view,
+    widgets,
 };
-use crate::app::{Action, Camera, Command, Edit, Feedback, Frame, Spawn, Tools};
+use crate::app::{Action, Camera, Command, Feedback, Frame, Spawn, Tools};
 use crate::engine::{DVec2, Id, Method};
 use crate::render::{Extra, ViewOptions};
 use crate::scene::{Shipped, every_scene};
@@ -19,6 +21,9 @@ use std::sync::Arc;
 
 /// Narrower plots would only be legends [points].
 const NARROWEST_PLOT: f32 = 320.0;
+
+/// A field that was not drawn within so many passes has no place in this window.
+const MOST_AWAITED: u32 = 60;
 
 /// Everything that the window shows around the scene.
 #[derive(Default)]
@@ -36,12 +41,20 @@ pub struct Shell {
     applied: Option<Theme>,
     /// Space moved the view while it was held.
     space_panned: bool,
-    /// What the last edit had touched when a duplicate was asked for; its copies are selected when they appear.
-    duplicated: Option<Arc<Vec<Id>>>,
+    /// What the last edit had touched when something was placed; what is new is selected when it appears.
+    placed: Option<Arc<Vec<Id>>>,
     /// What the simulation was last asked for beside itself: the truth, and a rival under this method.
     asked: (bool, Option<Method>),
     /// Whether there were two panes in the last pass.
     split: bool,
+    /// Who reads the keyboard in this pass, and what had it at the end of the last one.
+    reader: Reader,
+    focused: Option<egui::Id>,
+    /// For how many passes an opened field has not been drawn.
+    awaited: u32,
+    note: fault::Shown,
+    /// The key of slow motion is held.
+    slow: bool,
 }
 
 /// What came of a pass.
@@ -72,6 +85,7 @@ impl Shell {
     pub fn prepare(&mut self, ctx: &egui::Context) {
         if self.applied.is_none() {
             theme::install(ctx);
+            ctx.add_plugin(Turns::default());
         }
         if self.applied != Some(self.state.theme) {
             theme::apply(ctx, self.state.theme);
@@ -106,13 +120,19 @@ impl Shell {
         self.follow(frame);
         let mut commands = Vec::new();
         self.ask(&mut commands);
-        let mut actions = actions::pressed(ui, &mut self.space_panned);
+        let typing = self.reader != Reader::Scene || self.state.help || ui.ctx().text_edit_focused();
+        let mut actions = actions::pressed(ui, typing, &mut self.space_panned);
+        let slow = !typing && actions::slow_motion_held(ui);
+        if std::mem::replace(&mut self.slow, slow) != slow {
+            commands.push(Command::Slow(slow));
+        }
         if self.state.panels {
             self.panels(ui, frame, &mut actions, &mut commands);
         }
         let canvas = CentralPanel::no_frame().show(ui, |ui| self.canvas(ui, frame, camera, ranges, &mut actions)).inner;
         commands.extend(canvas.commands);
         fault::show(ui, frame, canvas.rect, &mut actions, &mut commands);
+        fault::show_note(ui, frame, canvas.rect, &mut self.note, &mut commands);
         self.dialogs(ui, &mut actions, &mut commands);
         let (mut full_screen, mut quit) = (false, false);
         for action in actions {
@@ -120,10 +140,42 @@ impl Shell {
                 &mut Scene { frame, camera, commands: &mut commands, full_screen: &mut full_screen, quit: &mut quit };
             self.act(action, scene);
         }
-        self.note_duplicate(frame, &commands);
+        self.note_placed(frame, &commands);
         self.prepare(ui.ctx());
+        self.give_turn(ui.ctx());
         let view = self.view_options(camera);
         ShellOutput { commands, canvas: canvas.rect, rival: canvas.rival, view, full_screen, quit }
+    }
+
+    /// Settles who reads the keyboard next.
+    fn give_turn(&mut self, ctx: &egui::Context) {
+        let focused = ctx.memory(|memory| memory.focused());
+        let before = std::mem::replace(&mut self.focused, focused);
+        let opened = self.state.focus.is_some_and(|field| field != Field::Canvas);
+        self.awaited = if opened { self.awaited + 1 } else { 0 };
+        if self.awaited > MOST_AWAITED {
+            self.state.focus = None;
+        }
+        self.reader = if opened {
+            Reader::Awaited
+        } else if self.state.focus == Some(Field::Canvas) {
+            ctx.memory_mut(|memory| memory.request_focus(canvas::id()));
+            Reader::Scene
+        } else if ctx.text_edit_focused() || self.state.finder.is_some() {
+            Reader::Field
+        } else if focused.is_some() && focused != before && focused != Some(canvas::id()) {
+            // It may be a number that becomes a field when it is drawn with the keyboard.
+            Reader::Awaited
+        } else {
+            Reader::Scene
+        };
+        let waiting = ctx.with_plugin(|turns: &mut Turns| {
+            turns.reader = self.reader;
+            turns.waiting()
+        });
+        if waiting == Some(true) || self.reader == Reader::Awaited {
+            ctx.request_repaint();
+        }
     }
 
     /// Asks the simulation for what is wanted beside it, if that is something else than before.
@@ -152,20 +204,20 @@ impl Shell {
         if self.opened != frame.scene.opened {
             self.opened = frame.scene.opened;
             self.tools.forget();
-            self.duplicated = None;
+            self.placed = None;
         }
-        if let Some(before) = &self.duplicated
+        if let Some(before) = &self.placed
             && !Arc::ptr_eq(before, &frame.touched)
         {
             self.tools.select(frame.touched.to_vec());
-            self.duplicated = None;
+            self.placed = None;
         }
         self.tools.follow(&frame.world);
     }
 
-    fn note_duplicate(&mut self, frame: &Frame, commands: &[Command]) {
-        if commands.iter().any(|command| matches!(command, Command::Edit(Edit::Duplicate(..)))) {
-            self.duplicated = Some(frame.touched.clone());
+    fn note_placed(&mut self, frame: &Frame, commands: &[Command]) {
+        if commands.iter().any(|command| matches!(command, Command::Edit(edit) if edit.places())) {
+            self.placed = Some(frame.touched.clone());
         }
     }
 
@@ -237,6 +289,9 @@ impl Shell {
         canvas::decorate(ui, &response, &self.tools);
         let overlay = self.state.overlay(frame, camera, ranges);
         overlay.paint(ui, rect);
+        if frame.world.bodies().is_empty() && frame.world.walls().is_empty() {
+            overlay::hint(ui, rect);
+        }
         let hovered = self.tools.hovered().filter(|_| !self.tools.busy());
         overlay.selection_label(ui, rect, self.tools.selection(), hovered);
         overlay.read_out(ui, rect, hovered, response.hover_pos());
@@ -267,6 +322,7 @@ impl Shell {
             trails: view.trails,
             tension: view.tension,
             speed: view.speed,
+            ghost: view.ghost,
             selected: self.tools.selection().to_vec(),
             hovered: self.tools.hovered(),
             grip_cursor: None,

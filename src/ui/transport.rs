@@ -88,7 +88,7 @@ fn achieved(ui: &Ui, frame: &Frame) -> (String, egui::Color32) {
     if !frame.running {
         return ("paused".into(), colours.weak);
     }
-    let short = frame.speed.achieved < 0.95 * frame.speed.wanted;
+    let short = frame.speed.falls_short();
     (real_time(frame.speed.achieved), if short { colours.warning } else { colours.weak })
 }
 

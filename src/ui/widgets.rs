@@ -286,11 +286,28 @@ pub fn scroll(ui: &mut Ui, area: ScrollArea, content: impl FnOnce(&mut Ui)) {
 
 /// A heading and what belongs to it, with a line above; folded away by a click on the heading.
 pub fn section(ui: &mut Ui, title: &str, open: bool, content: impl FnOnce(&mut Ui)) {
+    foldable(ui, title, open, None, content);
+}
+
+/// The same, unfolded at first and whenever `unfold` says so.
+pub fn section_opened(ui: &mut Ui, title: &str, unfold: Option<bool>, content: impl FnOnce(&mut Ui)) {
+    foldable(ui, title, true, unfold, content);
+}
+
+/// Rows of a section that are seldom needed, folded away at first.
+pub fn fold(ui: &mut Ui, title: &str, help: &str, content: impl FnOnce(&mut Ui)) {
+    let words = RichText::new(title).color(theme::colours(ui).text);
+    let header = egui::CollapsingHeader::new(words).id_salt(title).default_open(false).show_unindented(ui, content);
+    header.header_response.on_hover_text(format!("{help} Click to fold or unfold."));
+}
+
+fn foldable(ui: &mut Ui, title: &str, open: bool, now: Option<bool>, content: impl FnOnce(&mut Ui)) {
     let line = ui.available_rect_before_wrap();
     ui.painter().hline(line.x_range(), line.top(), Stroke::new(1.0, theme::colours(ui).line));
     ui.add_space(theme::GRID);
     let heading = RichText::new(title).heading().color(theme::colours(ui).strong);
-    let header = egui::CollapsingHeader::new(heading).id_salt(title).default_open(open).show_unindented(ui, |ui| {
+    let header = egui::CollapsingHeader::new(heading).id_salt(title).default_open(open).open(now);
+    let header = header.show_unindented(ui, |ui| {
         // Rows are as high as they are far apart.
         ui.spacing_mut().item_spacing.y = 0.0;
         content(ui);

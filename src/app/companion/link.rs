@@ -2,7 +2,7 @@
 
 use super::report::{Board, Companion, Companions};
 use super::thread::{Message, Purpose, Thread};
-use super::{Beginning, Input, Pose};
+use super::{Beginning, Extent, Input, Pose};
 use crate::engine::{Method, World};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicIsize, AtomicU64, Ordering};
@@ -97,19 +97,26 @@ impl Drop for Link {
 /// All companions of a simulation.
 #[derive(Default)]
 pub(in crate::app) struct Links {
-    truth: Option<Link>,
+    truth: Option<(Link, Extent)>,
     rival: Option<(Link, Method)>,
 }
 
 impl Links {
-    /// Starts or ends the truth.
-    pub fn set_truth(&mut self, on: bool, beginning: Beginning, waker: &Waker) -> std::io::Result<()> {
-        if !on {
-            self.truth = None;
-        } else if self.truth.is_none() {
-            let mut link = Link::start(Purpose::Truth, waker)?;
-            link.begin(beginning);
-            self.truth = Some(link);
+    /// Starts or ends the truth, or lets it go further or less far.
+    pub fn set_truth(&mut self, extent: Option<Extent>, beginning: Beginning, waker: &Waker) -> std::io::Result<()> {
+        match (extent, &mut self.truth) {
+            (None, truth) => *truth = None,
+            (Some(extent), Some((link, now))) => {
+                if *now != extent {
+                    link.send(Message::Extent(link.generation, extent, Box::new(beginning)));
+                    *now = extent;
+                }
+            }
+            (Some(extent), truth) => {
+                let mut link = Link::start(Purpose::Truth(extent), waker)?;
+                link.begin(beginning);
+                *truth = Some((link, extent));
+            }
         }
         Ok(())
     }
@@ -159,13 +166,13 @@ impl Links {
     pub fn companions(&self) -> Companions {
         let companion = |link: &Link| Companion { board: link.board.clone(), generation: link.generation };
         Companions {
-            truth: self.truth.as_ref().map(companion),
+            truth: self.truth.as_ref().map(|(link, _)| companion(link)),
             rival: self.rival.as_ref().map(|(link, _)| companion(link)),
         }
     }
 
     fn each(&mut self, mut act: impl FnMut(&mut Link)) {
-        self.truth.iter_mut().for_each(&mut act);
+        self.truth.iter_mut().for_each(|(link, _)| act(link));
         self.rival.iter_mut().for_each(|(link, _)| act(link));
     }
 }
@@ -193,7 +200,7 @@ mod tests {
         let (world, hz) = (start.world.clone(), start.method.hz);
         let beginning = Beginning { world, start, scene: Arc::default(), untouched: true, hz };
         let mut links = Links::default();
-        links.set_truth(true, beginning.clone(), &waker).expect("room for a thread");
+        links.set_truth(Some(Extent::Computed), beginning.clone(), &waker).expect("room for a thread");
         let world = beginning.world.clone();
         (0..2 * MOST_BEHIND).for_each(|_| links.step(&world));
         let companion = links.companions().truth.expect("it was started");

@@ -59,6 +59,15 @@ impl Pose {
     }
 }
 
+/// How far the truth goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// As long as the motion is known: costs nothing, so that every such scene is told how wrong it is.
+    Known,
+    /// Further, where it must be computed.
+    Computed,
+}
+
 /// Where a companion begins to follow.
 #[derive(Clone, Debug)]
 pub struct Beginning {

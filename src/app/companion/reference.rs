@@ -2,7 +2,7 @@
 
 use super::report::{Report, Standing};
 use super::separation::{Gap, Separation};
-use super::{Beginning, Follower, Input, Pose};
+use super::{Beginning, Extent, Follower, Input, Pose};
 use crate::engine::{EngineError, Id, Integrator, LinearSolver, Method, Solver, World};
 use crate::truth::Trajectory;
 use std::sync::Arc;
@@ -42,6 +42,7 @@ pub fn reference_methods(method: &Method) -> [Method; 2] {
 /// Follows a simulation with the truth.
 pub(super) struct Reference {
     beginning: Box<Beginning>,
+    extent: Extent,
     length: f64,
     /// Steps followed since the beginning, and the rates from which step on [Hz].
     steps: u64,
@@ -58,6 +59,7 @@ enum Source {
     Known(Trajectory),
     Computed(Box<Pair>),
     Parted { after: f64, chaotic: bool },
+    Over { after: f64, touched: bool },
 }
 
 /// A run and a coarser one.
@@ -73,14 +75,16 @@ struct Pair {
 impl Reference {
     /// # Errors
     /// In words, if no run can be begun.
-    pub fn new(beginning: Box<Beginning>) -> Result<Reference, String> {
+    pub fn new(beginning: Box<Beginning>, extent: Extent) -> Result<Reference, String> {
         let known = beginning.untouched.then(|| beginning.start.known_motion()).flatten();
         let source = match known {
             Some(known) => Source::Known(known),
-            None => Source::Computed(Box::new(Pair::new(&beginning)?)),
+            None if extent == Extent::Computed => Source::Computed(Box::new(Pair::new(&beginning)?)),
+            None => Source::Over { after: beginning.world.time(), touched: true },
         };
         let (tick, time) = (beginning.world.tick(), beginning.world.time());
         let mut reference = Reference {
+            extent,
             length: beginning.length(),
             rates: vec![(0, beginning.hz)],
             steps: 0,
@@ -103,12 +107,34 @@ impl Reference {
             self.rates.push((self.steps, *hz));
         }
         if input.touches() && matches!(self.source, Source::Known(_)) {
-            self.compute(goes_on)?;
+            self.leave_known(true, goes_on)?;
         }
         match &mut self.source {
             Source::Computed(pair) => pair.apply(input),
-            Source::Known(_) | Source::Parted { .. } => Ok(()),
+            Source::Known(_) | Source::Parted { .. } | Source::Over { .. } => Ok(()),
         }
+    }
+
+    /// What is known ends here: goes on computing, if it is to.
+    fn leave_known(&mut self, touched: bool, goes_on: &dyn Fn() -> bool) -> Result<(), String> {
+        if self.extent == Extent::Computed {
+            return self.compute(goes_on);
+        }
+        self.source = Source::Over { after: self.time, touched };
+        Ok(())
+    }
+
+    /// Goes as far as `extent` from now on. One that had ended begins anew where the simulation is.
+    pub fn set_extent(&mut self, extent: Extent, beginning: Box<Beginning>) -> Result<(), String> {
+        match (&self.source, extent) {
+            (Source::Over { .. }, Extent::Computed) => *self = Reference::new(beginning, extent)?,
+            (Source::Computed(_) | Source::Parted { .. }, Extent::Known) => {
+                self.source = Source::Over { after: self.time, touched: !self.beginning.untouched };
+            }
+            _ => {}
+        }
+        self.extent = extent;
+        Ok(())
     }
 
     /// Follows a step, after which the simulation is `here`. A new distance, if there is one.
@@ -117,9 +143,9 @@ impl Reference {
         (self.tick, self.time) = (here.tick, here.time);
         let is_over = |known: &Trajectory| known.times.last().is_none_or(|end| here.time > end + SAME_TIME);
         match &mut self.source {
-            Source::Known(known) if is_over(known) => self.compute(goes_on)?,
+            Source::Known(known) if is_over(known) => self.leave_known(false, goes_on)?,
             Source::Computed(pair) => pair.step()?,
-            Source::Known(_) | Source::Parted { .. } => {}
+            Source::Known(_) | Source::Parted { .. } | Source::Over { .. } => {}
         }
         self.judge();
         Ok(self.compare(here))
@@ -163,7 +189,7 @@ impl Reference {
                 (there, known.agreement * known.length, &self.beginning.world.bodies().id)
             }
             Source::Computed(pair) => (Pose::of(pair.fine.world()), pair.apart, &pair.fine.world().bodies().id),
-            Source::Parted { .. } => return None,
+            Source::Parted { .. } | Source::Over { .. } => return None,
         };
         self.separation.compare(ids, here, &there, self.length, uncertainty);
         self.separation.gap
@@ -175,8 +201,9 @@ impl Reference {
             Source::Known(known) => Standing::Exact { error: known.agreement },
             Source::Computed(pair) => Standing::Converged { to: pair.apart / self.length },
             Source::Parted { after, chaotic } => Standing::Parted { after: *after, chaotic: *chaotic },
+            Source::Over { after, touched } => Standing::Over { after: *after, touched: *touched },
         };
-        let ended = matches!(standing, Standing::Parted { .. });
+        let ended = matches!(standing, Standing::Parted { .. } | Standing::Over { .. });
         Report {
             generation,
             tick: self.tick,

@@ -22,6 +22,8 @@ pub enum Standing {
     /// The two runs parted at this time [s]: from then on there is no reference. `chaotic` if both were carried to their
     /// accuracy until then, so that only neighbouring motions parting can be why; otherwise the runs may have been too coarse.
     Parted { after: f64, chaotic: bool },
+    /// What is known of the motion ended at this time [s], or was no longer that of the scene, and nobody asked to compute it.
+    Over { after: f64, touched: bool },
     /// A world that is only compared.
     Following,
     /// It ended, and why.

@@ -5,7 +5,7 @@ use super::reference::Reference;
 use super::report::{Board, Report, Standing};
 use super::rival::Rival;
 use super::separation::Gap;
-use super::{Beginning, Input, Pose};
+use super::{Beginning, Extent, Input, Pose};
 use crate::engine::Method;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 /// What a companion is for.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Purpose {
-    Truth,
+    Truth(Extent),
     Rival(Method),
 }
 
@@ -27,6 +27,8 @@ pub(super) enum Message {
     Step(u64, Arc<Pose>),
     /// The rival's method.
     Method(Method),
+    /// How far the truth is to go from now on; the simulation is at this beginning.
+    Extent(u64, Extent, Box<Beginning>),
 }
 
 /// Least time between two reports: more than any display shows.
@@ -98,7 +100,7 @@ impl Thread {
                 self.guard(work, |work| {
                     work.runner = None;
                     work.runner = Some(match purpose {
-                        Purpose::Truth => Runner::Reference(Box::new(Reference::new(beginning)?)),
+                        Purpose::Truth(extent) => Runner::Reference(Box::new(Reference::new(beginning, extent)?)),
                         Purpose::Rival(method) => Runner::Rival(Box::new(Rival::new(beginning, method)?)),
                     });
                     Ok(None)
@@ -122,6 +124,16 @@ impl Thread {
                 self.purpose = Purpose::Rival(method);
                 self.guard(work, |work| match &mut work.runner {
                     Some(Runner::Rival(rival)) => rival.set_method(method).map(|()| None),
+                    _ => Ok(None),
+                });
+            }
+            Message::Extent(generation, extent, beginning) => {
+                self.purpose = Purpose::Truth(extent);
+                let counts = self.gate.is(generation);
+                self.guard(work, |work| match &mut work.runner {
+                    Some(Runner::Reference(reference)) if counts => {
+                        reference.set_extent(extent, beginning).map(|()| None)
+                    }
                     _ => Ok(None),
                 });
             }
