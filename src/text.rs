@@ -1,11 +1,12 @@
-//! Text of strangers (names, paths, what stands in a file) as a message may show it: without what a terminal would obey.
+//! Text of strangers (names, paths, what stands in a file) as a message may show it: without what a terminal would
+//! obey.
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::fmt::Write;
 
-/// A text in which nothing acts: control characters, and those that turn the direction of writing or start a new line, are
-/// written as Rust writes them, `\n` or `\u{1b}`.
+/// A text in which nothing acts: control characters, and those that turn the direction of writing or start a new line,
+/// are written as Rust writes them, `\n` or `\u{1b}`.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     if !text.contains(acts) {
         return Cow::Borrowed(text);

@@ -655,8 +655,7 @@ fn a_path_need_not_be_text() {
     let name = |bytes: &[u8]| own.join(OsStr::from_bytes(bytes)).into_os_string();
     let scene = name(b"sc\xe8ne.ron");
     std::fs::write(&scene, "(version: 1, truth: (seconds: 0.1, length: 1), bodies: [Particle()])").expect("a scene");
-    let [csv, measures, json, svg] =
-        [&b"\xff.csv"[..], b"\xfe.csv", b"\xfd.jsonl", b"\xfc.svg"].map(|bytes| name(bytes));
+    let [csv, measures, json, svg] = [&b"\xff.csv"[..], b"\xfe.csv", b"\xfd.jsonl", b"\xfc.svg"].map(name);
     let given = |words: &[&OsStr]| {
         let output = Command::new(env!("CARGO_BIN_EXE_tautline")).args(words).output().expect("the program runs");
         (output.status.code(), text(&output.stdout) + &text(&output.stderr))

@@ -216,7 +216,7 @@ impl Sandbox<'_> {
         self.key("ctrl+s");
         self.key("Return");
         self.wait("the file to be saved", |_| path.exists());
-        tautline::scene::open(&path.display().to_string()).expect("what was saved can be read")
+        tautline::scene::open(&path).expect("what was saved can be read")
     }
 
     /// Closes the window by its shortcut; how it ended, and what it printed.

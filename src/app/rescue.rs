@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 /// A folder holds so many rescued states of one scene at most.
 const MOST: u32 = 1000;
 
-/// Writes the scene as it stands to a new file, if it was edited since it was last written: beside its own file, or where there is
-/// none or that folder takes none in the folder for the state of programs, or else in that for temporary files. The path, or `None`
-/// if there is nothing to keep.
+/// Writes the scene as it stands to a new file, if it was edited since it was last written: beside its own file, or
+/// where there is none or that folder takes none in the folder for the state of programs, or else in that for temporary
+/// files. The path, or `None` if there is nothing to keep.
 ///
 /// # Errors
 /// In words, if no folder takes it.

@@ -1,5 +1,5 @@
-//! The command line: what can be asked for, and who answers. Exit codes: 0 done, 1 failed (also a window that was destroyed from
-//! outside), 2 not understood, 130 stopped with Ctrl-C.
+//! The command line: what can be asked for, and who answers. Exit codes: 0 done, 1 failed (also a window that was
+//! destroyed from outside), 2 not understood, 130 stopped with Ctrl-C.
 
 mod check;
 mod desktop;

@@ -12,8 +12,8 @@ const STDOUT: &str = "-";
 
 /// A file or standard output, buffered. Its errors name the file and say what to do.
 ///
-/// A file appears, in place of an old one, when it is committed; without that the old one stays. A pipe or a device takes what is
-/// written as it comes.
+/// A file appears, in place of an old one, when it is committed; without that the old one stays. A pipe or a device
+/// takes what is written as it comes.
 pub(super) struct Output {
     name: String,
     inner: Inner,
@@ -40,8 +40,8 @@ impl Output {
         Ok(Output { name: named(path), inner: Inner::Once(BufWriter::new(sink)) })
     }
 
-    /// Begins the file `path` with `bytes`, all of which is on the disk after every flush, whatever happens then. For what is
-    /// written seldom and is never large.
+    /// Begins the file `path` with `bytes`, all of which is on the disk after every flush, whatever happens then. For
+    /// what is written seldom and is never large.
     pub(super) fn journal(path: &Path, bytes: Vec<u8>) -> anyhow::Result<Output> {
         if is_stdout(path) || is_special(path) {
             let mut output = Output::create(path)?;

@@ -1,4 +1,5 @@
-//! Ctrl-C, and the other ways in which a system asks a program to end: a long command ends in order and keeps what it has.
+//! Ctrl-C, and the other ways in which a system asks a program to end: a long command ends in order and keeps what it
+//! has.
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,5 +1,5 @@
-//! Files as the program writes and reads them: written whole or not at all, read within bounds, told apart whatever they are
-//! called. A room of its own below all others, since every room that has something to keep writes it here.
+//! Files as the program writes and reads them: written whole or not at all, read within bounds, told apart whatever
+//! they are called. A room of its own below all others, since every room that has something to keep writes it here.
 
 mod error;
 mod part;

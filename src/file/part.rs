@@ -4,11 +4,13 @@ use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Names tried before it is given up: each is taken only by a file that is being written, or one that may not be removed.
+/// Names tried before it is given up: each is taken only by a file that is being written, or one that may not be
+/// removed.
 const ATTEMPTS: u32 = 100;
 
-/// A new, empty, locked file in the folder of `target`, so that the rename stays on one disk. Its name is short, since the
-/// target's may already be as long as a name can be, and nobody else's. What killed programs left there is removed first.
+/// A new, empty, locked file in the folder of `target`, so that the rename stays on one disk. Its name is short, since
+/// the target's may already be as long as a name can be, and nobody else's. What killed programs left there is removed
+/// first.
 pub(super) fn create_beside(target: &Path) -> std::io::Result<(PathBuf, File)> {
     remove_stale(folder_of(target));
     for attempt in 0..ATTEMPTS {
@@ -33,8 +35,8 @@ fn folder_of(target: &Path) -> &Path {
     target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Removes the unfinished files of programs that were killed. A program that still writes holds a lock on its own, which the
-/// system takes from it when it ends, however it ends. What cannot be removed stays: it is in nobody's way.
+/// Removes the unfinished files of programs that were killed. A program that still writes holds a lock on its own,
+/// which the system takes from it when it ends, however it ends. What cannot be removed stays: it is in nobody's way.
 fn remove_stale(folder: &Path) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for entry in entries.flatten().filter(|entry| is_part(&entry.file_name().to_string_lossy())) {

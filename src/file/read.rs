@@ -22,8 +22,8 @@ pub enum Unreadable {
 
 /// Reads the file at `path`, if it has at most `limit` bytes.
 ///
-/// Refused, without reading, is what is no file on a disk (folders, pipes, devices, files of /proc and the like) and what is too
-/// large. Nothing is waited for.
+/// Refused, without reading, is what is no file on a disk (folders, pipes, devices, files of /proc and the like) and
+/// what is too large. Nothing is waited for.
 pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, Unreadable> {
     // Before it is opened: to open some devices is to use them.
     check(&std::fs::metadata(path)?, limit)?;
@@ -66,8 +66,8 @@ fn open(path: &Path) -> std::io::Result<File> {
     File::open(path)
 }
 
-/// Whether a path leads to a file system that holds no files but shows the state of the system: proc, sysfs, debugfs, tracefs,
-/// securityfs, configfs, both of cgroup, bpf, pstore, efivarfs, mqueue, selinuxfs, nsfs.
+/// Whether a path leads to a file system that holds no files but shows the state of the system: proc, sysfs, debugfs,
+/// tracefs, securityfs, configfs, both of cgroup, bpf, pstore, efivarfs, mqueue, selinuxfs, nsfs.
 #[cfg(target_os = "linux")]
 fn is_pseudo(path: &Path) -> bool {
     // From linux/magic.h.

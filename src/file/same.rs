@@ -16,7 +16,8 @@ pub fn behind_links(path: &Path) -> PathBuf {
     target
 }
 
-/// Whether something is there that takes bytes as they come and cannot be replaced: a pipe, a terminal, the null device.
+/// Whether something is there that takes bytes as they come and cannot be replaced: a pipe, a terminal, the null
+/// device.
 pub fn is_special(path: &Path) -> bool {
     path.metadata().is_ok_and(|about| !about.is_file() && !about.is_dir())
 }

@@ -7,11 +7,11 @@ use std::fs::{File, Permissions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// A file under way: written beside the one that it is to be, which it replaces only once it is complete on disk. Dropped
-/// before that it leaves no trace. Not buffered.
+/// A file under way: written beside the one that it is to be, which it replaces only once it is complete on disk.
+/// Dropped before that it leaves no trace. Not buffered.
 ///
-/// The old file keeps its permissions, and a symbolic link stays one: what it leads to is replaced. Folders, pipes, devices and
-/// read-only files are refused.
+/// The old file keeps its permissions, and a symbolic link stays one: what it leads to is replaced. Folders, pipes,
+/// devices and read-only files are refused.
 pub struct WholeFile {
     target: PathBuf,
     part: PathBuf,
@@ -107,7 +107,8 @@ pub fn check_writable(path: &Path) -> Result<(), WriteError> {
     if is_special(path) { Ok(()) } else { WholeFile::create(path).map(drop) }
 }
 
-/// Where bytes go that somebody named a place for: a file that appears whole, or a pipe or a device, which take them as they come.
+/// Where bytes go that somebody named a place for: a file that appears whole, or a pipe or a device, which take them as
+/// they come.
 pub enum Sink {
     Whole(WholeFile),
     Stream(File),

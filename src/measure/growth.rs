@@ -5,8 +5,8 @@ use crate::engine::{DVec2, EngineError, Method, StepReport, Stepper, World};
 /// From which growth on it is worth a word: below it an accuracy of 1e-3 is still one of a tenth.
 pub const SENSITIVE: f64 = 100.0;
 
-/// Size of the disturbance, in parts of the scene's length: so small that only its first power counts, so large that a step
-/// which the two runs divide differently does not show. Their accuracy is [`ACCURACY`] or that of the run.
+/// Size of the disturbance, in parts of the scene's length: so small that only its first power counts, so large that a
+/// step which the two runs divide differently does not show. Their accuracy is [`ACCURACY`] or that of the run.
 const SIZE: f64 = 1e-4;
 const ACCURACY: f64 = 1e-6;
 
@@ -22,14 +22,15 @@ const LINEAR: f64 = 10.0;
 
 /// Follows two runs of a world that begin with slightly different velocities, and says how far they part.
 ///
-/// The difference of two neighbouring motions obeys a linear equation, so that it may be scaled whenever it grows too large for
-/// that; the factors add up in a logarithm (Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15, 1980). Velocities are disturbed
-/// by a smooth field over the scene, which no constraint contradicts; with a time unit of √(length/gravity) they count as
-/// distances. Growth is the distance of the positions against the disturbance: 1 for a pendulum that hangs, t in time units for
-/// what flies freely, sinh t for what stands on its head. What the run itself does is not touched.
+/// The difference of two neighbouring motions obeys a linear equation, so that it may be scaled whenever it grows too
+/// large for that; the factors add up in a logarithm (Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15, 1980).
+/// Velocities are disturbed by a smooth field over the scene, which no constraint contradicts; with a time unit of
+/// √(length/gravity) they count as distances. Growth is the distance of the positions against the disturbance: 1 for a
+/// pendulum that hangs, t in time units for what flies freely, sinh t for what stands on its head. What the run itself
+/// does is not touched.
 ///
-/// It ends where a step goes through the substeps, for these are not followed to an accuracy that could be amplified, and where
-/// following both runs that exactly costs far more than the run itself.
+/// It ends where a step goes through the substeps, for these are not followed to an accuracy that could be amplified,
+/// and where following both runs that exactly costs far more than the run itself.
 pub struct Growth {
     base: World,
     disturbed: World,
@@ -110,8 +111,8 @@ impl Growth {
         }
     }
 
-    /// By how much errors that were made at the start have grown at most so far, ≥ 1; `None` where nothing is known: at the start,
-    /// and where the first step already went through the substeps or nothing moves.
+    /// By how much errors that were made at the start have grown at most so far, ≥ 1; `None` where nothing is known: at
+    /// the start, and where the first step already went through the substeps or nothing moves.
     pub fn factor(&self) -> Option<f64> {
         // What overflows is sensitive beyond all use.
         (self.first > 0.0).then(|| libm::exp(self.largest.min(700.0)))
@@ -171,7 +172,8 @@ fn work(report: &StepReport) -> u64 {
     report.bodies as u64 * u64::from(report.island_steps.max(report.substeps).max(1) + report.retries)
 }
 
-/// The time in which the scene moves by its length [s]: of a fall, or else of its fastest body; 1 s where nothing moves.
+/// The time in which the scene moves by its length [s]: of a fall, or else of its fastest body; 1 s where nothing
+/// moves.
 fn unit(world: &World, length: f64) -> f64 {
     let gravity = world.gravity().length();
     let fastest = world.bodies().velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
@@ -182,8 +184,8 @@ fn unit(world: &World, length: f64) -> f64 {
     }
 }
 
-/// Adds a smooth field of velocities. Its waves are longer than the scene, so that it wakes slow modes, and in no simple relation
-/// to it or to each other, so that no symmetry keeps it from any direction.
+/// Adds a smooth field of velocities. Its waves are longer than the scene, so that it wakes slow modes, and in no
+/// simple relation to it or to each other, so that no symmetry keeps it from any direction.
 fn disturb(world: &mut World, length: f64, unit: f64) {
     let size = SIZE * length / unit;
     for i in 0..world.bodies.len() {
@@ -256,8 +258,8 @@ mod tests {
         }
     }
 
-    /// A double pendulum of two particles of 1 kg on rods of 1 m: angles from straight down and their rates, by the textbook's
-    /// equations M(θ) θ̈ = f (Lagrange), which know nothing of rods.
+    /// A double pendulum of two particles of 1 kg on rods of 1 m: angles from straight down and their rates, by the
+    /// textbook's equations M(θ) θ̈ = f (Lagrange), which know nothing of rods.
     type Angles = [f64; 4];
 
     fn slope([a, b, va, vb]: Angles) -> Angles {

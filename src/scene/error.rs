@@ -5,7 +5,8 @@ use crate::text::escaped;
 use std::borrow::Cow;
 use std::fmt;
 
-/// The one message about a scene that cannot be used. It is fit for a terminal, whatever stands in the file and its name.
+/// The one message about a scene that cannot be used. It is fit for a terminal, whatever stands in the file and its
+/// name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}", escaped(&format!("{place}: {problem}")))]
 pub struct SceneError {
@@ -69,7 +70,8 @@ impl SceneError {
     }
 }
 
-/// A name or a text of a file as a message shows it: its beginning, if it is long, with nothing in it that a terminal obeys.
+/// A name or a text of a file as a message shows it: its beginning, if it is long, with nothing in it that a terminal
+/// obeys.
 pub(crate) fn shown(name: &str) -> Cow<'_, str> {
     const LONGEST: usize = 48;
     match name.char_indices().nth(LONGEST) {

@@ -73,8 +73,8 @@ impl Desktop {
         })
     }
 
-    /// Ends the session after a panic in the event loop. What is tied to the display is left to the end of the process: it may
-    /// be half changed.
+    /// Ends the session after a panic in the event loop. What is tied to the display is left to the end of the process:
+    /// it may be half changed.
     pub fn abandon(mut self, mut failure: anyhow::Error) -> anyhow::Result<()> {
         if let Some(sandbox) = self.sandbox.take() {
             self.rescued = self.rescued.or_else(|| rescue(&sandbox.session.frame()));
@@ -302,8 +302,8 @@ fn destroyed() -> anyhow::Error {
     anyhow!("the window was destroyed from outside")
 }
 
-/// What lies behind a failure: where the window is gone, that. winit asks the display for its size, and takes it for granted
-/// that the display knows the window.
+/// What lies behind a failure: where the window is gone, that. winit asks the display for its size, and takes it for
+/// granted that the display knows the window.
 fn cause(window: &Window, failure: anyhow::Error) -> anyhow::Error {
     let (size, _) = quietly(|| window.inner_size());
     if size.is_some() { failure } else { destroyed() }

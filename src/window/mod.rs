@@ -70,8 +70,8 @@ impl Panic {
     }
 }
 
-/// Does `act`, and catches a panic of it, of which nothing is printed: a message for a programmer is no use to a user. Panics of
-/// other threads are told as ever.
+/// Does `act`, and catches a panic of it, of which nothing is printed: a message for a programmer is no use to a user.
+/// Panics of other threads are told as ever.
 fn quietly<T>(act: impl FnOnce() -> T) -> (Option<T>, Option<Panic>) {
     let caught = Arc::new(Mutex::new(None));
     let (here, found) = (std::thread::current().id(), caught.clone());

@@ -128,7 +128,7 @@ pub(super) fn execute(arguments: &LabArguments) -> anyhow::Result<ExitCode> {
     }
     let names = arguments.names();
     // Before minutes are spent: every scene must open, and every file.
-    let setups = names.iter().map(|name| scene::open(name)).collect::<Result<Vec<Setup>, _>>()?;
+    let setups = names.iter().map(scene::open).collect::<Result<Vec<Setup>, _>>()?;
     if let Some(folder) = &arguments.docs {
         docs::check(folder)?;
     }

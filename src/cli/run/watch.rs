@@ -32,7 +32,8 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// A run from `world`, whose exact motion may be known, which `refined` repeats, and whose sensitivity `growth` follows.
+    /// A run from `world`, whose exact motion may be known, which `refined` repeats, and whose sensitivity `growth`
+    /// follows.
     pub(super) fn new(world: &World, exact: Option<Trajectory>, refined: Refined, growth: Option<Growth>) -> Watch {
         let drift = EnergyDrift::new(&Measures::of(world));
         Watch { drift, exact, error: ErrorSum::default(), refined, growth, beside: Duration::ZERO }

@@ -50,8 +50,8 @@ trait Generate {
     fn layout(&self) -> Layout;
     /// Refuses parameters from which nothing sensible can be built.
     fn check(&self) -> Result<(), Fault>;
-    /// Adds its bodies, in the order of its layout, and its constraints. `group` is a collision group that no body has yet, for
-    /// bodies that do not touch each other.
+    /// Adds its bodies, in the order of its layout, and its constraints. `group` is a collision group that no body has
+    /// yet, for bodies that do not touch each other.
     fn build(&self, world: &mut World, group: u32) -> Result<(), Fault>;
 }
 

@@ -7,9 +7,9 @@ pub fn projectile(position: DVec2, velocity: DVec2, gravity: DVec2, t: f64) -> D
     position + t * (velocity + 0.5 * t * gravity)
 }
 
-/// Position [m] and velocity [m/s] under gravity and a drag that takes away the part `drag` [1/s] of the velocity every second:
-/// v̇ = g − drag v, hence v = v₀ (1 − z φ₁) + g t φ₁ and p = p₀ + v₀ t φ₁ + g t² φ₂ with z = drag t, φ₁ = (1 − e^(−z))/z and
-/// φ₂ = (1 − φ₁)/z. No drag makes a projectile, and a small one what differs little from it.
+/// Position [m] and velocity [m/s] under gravity and a drag that takes away the part `drag` [1/s] of the velocity every
+/// second: v̇ = g − drag v, hence v = v₀ (1 − z φ₁) + g t φ₁ and p = p₀ + v₀ t φ₁ + g t² φ₂ with z = drag t, φ₁ = (1 −
+/// e^(−z))/z and φ₂ = (1 − φ₁)/z. No drag makes a projectile, and a small one what differs little from it.
 pub fn fall_with_drag(position: DVec2, velocity: DVec2, gravity: DVec2, drag: f64, t: f64) -> (DVec2, DVec2) {
     let z = drag * t;
     let (one, two) = if z < 0.5 {

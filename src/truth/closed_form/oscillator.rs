@@ -18,8 +18,9 @@ pub struct Oscillator {
 impl Oscillator {
     /// Displacement [m] and velocity [m/s] at time `t`, whether it is damped below, at or above criticality.
     ///
-    /// With γ = c/2m, δ² = γ² − k/m and C, S = e^(−γt) times cosh δt, sinh(δt)/δ above criticality, cos, sin with |δ| below, and
-    /// 1, t at it: x = x₀ C + (v₀ + γ x₀) S, v = v₀ C − (γ v₀ + k x₀/m) S (Landau, Lifshitz, Mechanics, § 25).
+    /// With γ = c/2m, δ² = γ² − k/m and C, S = e^(−γt) times cosh δt, sinh(δt)/δ above criticality, cos, sin with |δ|
+    /// below, and 1, t at it: x = x₀ C + (v₀ + γ x₀) S, v = v₀ C − (γ v₀ + k x₀/m) S (Landau, Lifshitz, Mechanics, §
+    /// 25).
     pub fn at(&self, t: f64) -> (f64, f64) {
         let gamma = self.damping / (2.0 * self.mass);
         let omega_squared = self.stiffness / self.mass;
@@ -35,8 +36,8 @@ impl Oscillator {
                 let decay = libm::exp(-gamma * t);
                 (decay * libm::cos(rate * t), decay * libm::sin(rate * t) / rate)
             }
-            // Far above criticality e^(−γt) is 0 and cosh δt is not finite, but their product is the slow mode, whose rate
-            // γ − δ = (k/m)/(γ + δ) must not be a difference.
+            // Far above criticality e^(−γt) is 0 and cosh δt is not finite, but their product is the slow mode, whose
+            // rate γ − δ = (k/m)/(γ + δ) must not be a difference.
             _ => {
                 let slow = libm::exp(-omega_squared / (gamma + rate) * t);
                 let lost = -libm::expm1(-2.0 * rate * t);
