@@ -997,6 +997,16 @@ fn the_distance_from_the_truth_carries_its_error_and_so_does_a_selected_body() {
 }
 
 #[test]
+fn a_motion_that_lets_errors_grow_is_named_in_the_status_bar() {
+    let mut harness = harness(accompanied());
+    assert!(harness.query_all_by_label_contains("Errors grow").next().is_none());
+    let report = Report { generation: 1, growth: Some("4e5-fold".into()), ..Report::default() };
+    Arc::make_mut(&mut harness.state_mut().frame).companions.truth = Some(Companion::fixed(report, []));
+    harness.run();
+    assert!(harness.query_all_by_label_contains("Errors grow 4e5-fold").next().is_some());
+}
+
+#[test]
 fn the_error_of_a_known_motion_is_in_the_status_bar_without_the_ghost() {
     let mut harness = harness(accompanied());
     assert!(!harness.state().shell.state().view.ghost);

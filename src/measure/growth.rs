@@ -123,18 +123,40 @@ impl Growth {
         self.ended
     }
 
+    /// "4e5-fold", if they grow enough to say so.
+    pub fn fold(&self) -> Option<String> {
+        let factor = self.factor().filter(|factor| *factor >= SENSITIVE)?;
+        Some(match factor {
+            _ if factor < 1e3 => format!("{factor:.0}-fold"),
+            _ if factor < TOTAL => format!("{factor:.0e}-fold"),
+            _ => format!("more than {TOTAL:e}-fold"),
+        })
+    }
+
     /// "errors grow 4e5-fold in this motion", if they grow enough to say so.
     pub fn sentence(&self) -> Option<String> {
-        let factor = self.factor().filter(|factor| *factor >= SENSITIVE)?;
-        let factor = match factor {
-            _ if factor < 1e3 => format!("{factor:.0}"),
-            _ if factor < TOTAL => format!("{factor:.0e}"),
-            _ => format!("more than {TOTAL:e}"),
-        };
+        let fold = self.fold()?;
         Some(match self.ended {
-            None => format!("errors grow {factor}-fold in this motion"),
-            Some(time) => format!("errors grow {factor}-fold in the first {time:.2} s"),
+            None => format!("errors grow {fold} in this motion"),
+            Some(time) => format!("errors grow {fold} in the first {time:.2} s"),
         })
+    }
+
+    /// Does the same to both worlds, such as what a hand does to the run that is followed. Where it cannot be done it ends here.
+    pub fn change(&mut self, mut change: impl FnMut(&mut World) -> bool) {
+        let done = [&mut self.base, &mut self.disturbed].map(&mut change);
+        if done != [true; 2] || self.base.bodies().id != self.disturbed.bodies().id {
+            self.ended.get_or_insert(self.base.time());
+        }
+    }
+
+    /// Steps at another rate from now on [Hz].
+    ///
+    /// # Errors
+    /// If there is no such rate.
+    pub fn set_rate(&mut self, hz: f64) -> Result<(), EngineError> {
+        let method = Method { hz, ..*self.steppers[0].method() };
+        self.steppers.iter_mut().try_for_each(|stepper| stepper.set_method(method))
     }
 
     fn difference(&self) -> Difference {
@@ -337,6 +359,19 @@ mod tests {
         growth.largest = 1e4;
         assert_eq!(growth.sentence().as_deref(), Some("errors grow more than 1e16-fold in the first 6.00 s"));
         assert!(growth.factor().is_some_and(f64::is_finite));
+    }
+
+    #[test]
+    fn what_is_done_to_the_run_is_done_to_both_worlds() {
+        // Upright for a second, and then without gravity: what has grown goes on evenly.
+        let mut growth = after(&pendulum(1.0, std::f64::consts::PI), 1.0, 1.0);
+        growth.change(|world| world.set_gravity(DVec2::ZERO).is_ok());
+        growth.set_rate(120.0).expect("a rate");
+        (0..120).for_each(|_| growth.step(&StepReport::default()));
+        let rate = GRAVITY.sqrt();
+        near(&growth, libm::sinh(rate) + rate * libm::cosh(rate), 0.02);
+        growth.change(|world| world.set_gravity(DVec2::NAN).is_ok());
+        assert!(growth.ended().is_some(), "it cannot follow any more");
     }
 
     #[test]

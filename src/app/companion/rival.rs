@@ -80,6 +80,7 @@ impl Rival {
             gap: self.separation.gap,
             so_far: self.separation.so_far(),
             parting: self.separation.parting,
+            growth: None,
             offsets: self.separation.offsets.clone(),
             frame: Some(Arc::new(frame)),
         }
