@@ -10,16 +10,19 @@
 //! - [`scene`]: the file format, its errors, its generators
 //! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
 //! - [`engine`]: the physics; knows no window, file or clock
+//! - [`file`]: files written whole, read within bounds; [`text`]: text of strangers made fit to be shown
 
 #[cfg(feature = "desktop")]
 pub mod app;
 pub mod cli;
 pub mod engine;
+pub mod file;
 pub mod lab;
 pub mod measure;
 #[cfg(feature = "desktop")]
 pub mod render;
 pub mod scene;
+pub mod text;
 pub mod trial;
 pub mod truth;
 #[cfg(feature = "desktop")]

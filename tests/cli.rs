@@ -54,7 +54,7 @@ fn rows(csv: &str) -> Vec<Vec<f64>> {
 const TRAJECTORY: &str = "time,id,x,y,angle,vx,vy,omega";
 const MEASURES: &str = "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,violation_max,\
                         penetration_max,contacts,step_us,local_error,violation_rms,energy,energy_drift,\
-                        error_rms,error_max,error_rms_percent,error_max_percent,order";
+                        error_rms,error_max,error_rms_percent,error_max_percent,order,growth";
 
 #[test]
 fn every_command_explains_itself() {
@@ -153,7 +153,7 @@ fn a_run_writes_every_body_at_the_start_and_at_every_sample() {
 }
 
 /// The columns of a run's measures by name.
-fn measured(arguments: &[&str]) -> impl Fn(&str) -> Vec<f64> {
+fn measured(arguments: &[&str]) -> impl Fn(&str) -> Vec<f64> + use<> {
     let rows = rows(&prints(&[&["run"], arguments, &["--measures", "-"]].concat()));
     move |name| {
         let column = MEASURES.split(',').position(|known| known == name).unwrap_or_else(|| panic!("no column {name}"));
@@ -184,6 +184,78 @@ fn measures_tell_the_error_where_the_truth_is_known() {
 }
 
 #[test]
+fn no_output_holds_what_is_no_number() {
+    let folder = folder();
+    let scene = |name: &str, text: &str| {
+        std::fs::write(path_in(&folder, name), text).expect("a scene file");
+        path_in(&folder, name)
+    };
+    let oscillators: String = ["0", "0.2", "20", "40", "1e6", "1e12"]
+        .iter()
+        .enumerate()
+        .map(|(i, damping)| format!("Spring(a: (-1, {i}), b: \"{i}\", rest: 1, stiffness: 100, damping: {damping}), "))
+        .collect();
+    let balls: String = (0..6)
+        .map(|i| format!("Particle(name: \"{i}\", position: (0.25, {i}), radius: 0, collides: false), "))
+        .collect();
+    let damped = scene(
+        "damped.ron",
+        &format!(
+            "(version: 1, truth: (seconds: 1, length: 0.25, form: Oscillator), settings: (gravity: (0, 0), automatic: true, \
+             accuracy: 1e-9), bodies: [{balls}], constraints: [{oscillators}])"
+        ),
+    );
+    let still = "settings: (gravity: (0, 0), automatic: true)";
+    let scenes = [
+        damped.clone(),
+        scene("empty.ron", "(version: 1)"),
+        scene("still.ron", &format!("(version: 1, {still}, bodies: [Particle()])")),
+        scene("fixed.ron", &format!("(version: 1, {still}, bodies: [Disc(motion: Static)])")),
+        scene("light.ron", &format!("(version: 1, {still}, bodies: [Disc(mass: 1e-12, radius: 1e-9)])")),
+        scene("heavy.ron", "(version: 1, bodies: [Disc(mass: 1e12, position: (1e8, -1e8), velocity: (1e6, 0))])"),
+        scene(
+            "drag.ron",
+            "(version: 1, truth: (seconds: 1, length: 1, form: Projectile), settings: (drag: 1e-300), bodies: [Particle()])",
+        ),
+        scene(
+            "point.ron",
+            "(version: 1, bodies: [Particle(name: \"a\")], constraints: [Spring(a: \"a\", b: (0, 0), rest: 0, stiffness: 9)])",
+        ),
+        "hard/weighing".to_owned(),
+        "hard/circle_stack".to_owned(),
+    ];
+    let is_clean = |text: &str| {
+        !["nan", "inf"]
+            .iter()
+            .any(|word| text.to_lowercase().split(|c: char| !c.is_ascii_alphanumeric()).any(|found| found == *word))
+    };
+    let [csv, json, table] = ["out.csv", "out.jsonl", "table.csv"].map(|name| path_in(&folder, name));
+    for scene in &scenes {
+        for more in [
+            &["--accuracy", "1e-6"][..],
+            &["--integrator", "velocity-verlet"],
+            &["--integrator", "velocity-verlet", "--order"],
+        ] {
+            let run = ["run", scene, "--seconds", "1", "--csv", &csv, "--measures"];
+            let output = tautline(&[&run[..], &["-"], more].concat());
+            let (rows, said) = (text(&output.stdout), text(&output.stderr));
+            assert!(output.status.success() && is_clean(&said), "{scene} {more:?}: {said}");
+            assert!(is_clean(&rows), "{scene} {more:?}: {rows}");
+            assert!(is_clean(&read(&csv)), "{scene} {more:?}");
+        }
+        let lab =
+            ["lab", scene, "--seconds", "0.5", "--methods", "accuracy,rattle,semi-implicit-euler+pgs", "--budget", "1"];
+        let output = tautline(&[&lab[..], &["--json", &json, "--csv", &table]].concat());
+        let said = text(&output.stdout) + &text(&output.stderr);
+        assert!(output.status.success() && is_clean(&said), "{scene}: {said}");
+        assert!(is_clean(&read(&table)) && is_clean(&read(&json)), "{scene}: {}", read(&table));
+        tautline::lab::report::json::read(&read(&json)).unwrap_or_else(|error| panic!("{scene}: {error}"));
+    }
+    let errors = measured(&[&damped, "--seconds", "1"]);
+    assert!(errors("error_rms").iter().chain(&errors("error_max")).all(|error| *error < 1e-6), "known and small");
+}
+
+#[test]
 fn measures_add_up_the_energy_and_tell_its_drift() {
     let columns = measured(&["hard/oscillator", "--seconds", "2"]);
     let drift = columns("energy_drift");
@@ -197,6 +269,37 @@ fn measures_add_up_the_energy_and_tell_its_drift() {
     let columns = measured(&["hard/rope", "--seconds", "1", "--substeps", "2", "--solver", "pgs"]);
     let (rms, max) = (columns("violation_rms"), columns("violation_max"));
     assert!((1..rms.len()).all(|i| rms[i] > 0.0 && rms[i] <= max[i]), "{rms:?}");
+}
+
+#[test]
+fn a_run_by_accuracy_says_when_the_motion_amplifies_errors() {
+    let folder = folder();
+    let scene = |name: &str, y: f64| {
+        let text = format!(
+            "(version: 1, settings: (automatic: true), bodies: [Particle(name: \"bob\", position: (0, {y}), radius: 0)], \
+             constraints: [Rod(a: (0, 0), b: \"bob\")])"
+        );
+        std::fs::write(path_in(&folder, name), text).expect("a scene file");
+        path_in(&folder, name)
+    };
+    let (upright, hanging) = (scene("upright.ron", 1.0), scene("hanging.ron", -1.0));
+    let said = prints(&["run", &upright, "--seconds", "3", "--hash"]);
+    // sinh(3 s √(9.81/s²))
+    assert!(said.contains("; errors grow 6e3-fold in this motion\n"), "{said}");
+    assert!(!prints(&["run", &hanging, "--seconds", "3"]).contains("errors grow"));
+    let by_hand = prints(&["run", &upright, "--seconds", "3", "--integrator", "velocity-verlet"]);
+    assert!(!by_hand.contains("errors grow"), "nobody asked for an accuracy: {by_hand}");
+    let growth = measured(&[&upright, "--seconds", "3"])("growth");
+    assert!(growth[0].is_nan() && growth[1..].windows(2).all(|pair| pair[0] <= pair[1]), "{growth:?}");
+    for (step, growth) in growth.iter().enumerate().skip(60) {
+        let expected = (9.81f64.sqrt() * step as f64 / 60.0).sinh();
+        assert!((growth / expected - 1.0).abs() < 0.02, "{step}: {growth} {expected}");
+    }
+    // What follows a run does not change it.
+    let mut setup = tautline::scene::open(&upright).expect("a scene");
+    let mut stepper = tautline::engine::Stepper::new(setup.method).expect("a sound method");
+    (0..180).for_each(|_| drop(stepper.step(&mut setup.world)));
+    assert_eq!(said.lines().last(), Some(format!("{:016x}", setup.world.hash()).as_str()));
 }
 
 #[test]
@@ -290,7 +393,7 @@ fn settings_on_the_command_line_replace_those_of_the_scene() {
 fn the_summary_stays_out_of_rows_on_standard_output() {
     let output = tautline(&["run", "pendulum", "--seconds", "0.1", "--measures", "-", "--hash"]);
     let (out, messages) = (text(&output.stdout), text(&output.stderr));
-    assert!(out.lines().all(|line| line.split(',').count() == 20), "{out}");
+    assert!(out.lines().all(|line| line.split(',').count() == 21), "{out}");
     assert_eq!(messages.lines().count(), 2, "summary and hash: {messages}");
 }
 
@@ -394,6 +497,259 @@ fn messages_that_cannot_be_written_leave_the_exit_code() {
 #[cfg(target_os = "linux")]
 fn full() -> std::fs::File {
     std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a device that is always full")
+}
+
+/// Names in a folder, sorted.
+fn names(folder: &TempDir) -> Vec<std::ffi::OsString> {
+    let entries = std::fs::read_dir(folder).expect("the folder");
+    let mut names: Vec<_> = entries.map(|entry| entry.expect("an entry").file_name()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+#[cfg(unix)]
+fn an_output_that_does_not_fit_leaves_the_old_file_and_no_trace() {
+    let folder = folder();
+    let csv = path_in(&folder, "out.csv");
+    std::fs::write(&csv, "old").expect("a file");
+    // As on a full disk: no file may be longer than a block of 512 bytes or a kilobyte.
+    let limited = |arguments: &str| {
+        let shell = format!("trap '' XFSZ; ulimit -f 1; exec {} {arguments}", env!("CARGO_BIN_EXE_tautline"));
+        Command::new("sh").args(["-c", &shell]).current_dir(&folder).output().expect("a shell")
+    };
+    for arguments in [
+        "run rope --seconds 1 --csv out.csv",
+        "run rope --seconds 1 --measures out.csv",
+        "truth truth/rope --write .",
+        "lab truth/pendulum --seconds 0.5 --methods rattle,accuracy --json out.csv",
+        "lab truth/pendulum --seconds 0.5 --methods rattle,accuracy --svg out.svg",
+    ] {
+        let output = limited(arguments);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{arguments}: {message}");
+        assert!(message.contains("cannot write") && message.lines().count() == 1, "{arguments}: {message}");
+        let kept = read(&csv);
+        // What a journal has already is whole.
+        assert!(kept == "old" || arguments.contains("--json") && kept.ends_with('\n'), "{arguments}: {kept:?}");
+        assert_eq!(names(&folder), ["out.csv"], "{arguments}");
+        std::fs::write(&csv, "old").expect("a file");
+    }
+}
+
+#[test]
+fn no_command_overwrites_the_scene_that_it_reads() {
+    let folder = folder();
+    let text = "(version: 1, truth: (seconds: 0.1, length: 1), bodies: [Particle()])";
+    let scene = |name: &str| {
+        std::fs::write(path_in(&folder, name), text).expect("a scene file");
+        path_in(&folder, name)
+    };
+    let (truth, svg) = (scene("s.truth"), scene("s.svg"));
+    fails(&["truth", &truth, "--write", &path_in(&folder, ".")], 1, "would overwrite the scene");
+    fails(&["lab", &svg, "--svg", &path_in(&folder, "./s.svg")], 1, "would overwrite the scene");
+    if cfg!(feature = "desktop") {
+        let picture = scene("s.png");
+        fails(&["shot", &picture, &picture], 1, "would overwrite the scene");
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("s.png", path_in(&folder, "link.png")).expect("a link");
+            fails(&["shot", &picture, &path_in(&folder, "link.png")], 1, "would overwrite the scene");
+        }
+    }
+    for name in names(&folder) {
+        assert_eq!(std::fs::read_to_string(folder.path().join(&name)).expect("a file"), text, "{name:?}");
+    }
+}
+
+/// Starts a run without end into `out.csv`, and waits until it has begun the file.
+#[cfg(unix)]
+fn endless(folder: &TempDir) -> std::process::Child {
+    let mut run = command(&["run", "pendulum", "--seconds", "1000000", "--every", "0.1", "--csv", "out.csv"]);
+    let child = run.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let begun = std::time::Instant::now();
+    let is_part = |name: &std::ffi::OsString| name.to_string_lossy().ends_with(".part");
+    let long = |name: &std::ffi::OsString| folder.path().join(name).metadata().is_ok_and(|about| about.len() > 1000);
+    while !names(folder).iter().any(|name| is_part(name) && long(name)) {
+        assert!(begun.elapsed().as_secs() < 60, "nothing is written");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    child.expect("the program starts")
+}
+
+#[test]
+#[cfg(unix)]
+fn a_run_that_is_stopped_keeps_its_rows() {
+    for signal in ["-INT", "-TERM"] {
+        let folder = folder();
+        std::fs::write(path_in(&folder, "out.csv"), "old").expect("a file");
+        let child = endless(&folder);
+        assert_eq!(read(&path_in(&folder, "out.csv")), "old", "until it is complete the old one stays");
+        let stopped = Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill");
+        assert!(stopped.success());
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
+        assert!(text(&output.stdout).contains("stopped early"), "{}", text(&output.stdout));
+        let rows = rows(&read(&path_in(&folder, "out.csv")));
+        assert!(rows.len() > 10 && rows.iter().all(|row| row.len() == 8), "{}", rows.len());
+        assert_eq!(names(&folder), ["out.csv"]);
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn what_a_killed_run_left_is_removed_by_the_next_and_nothing_else() {
+    let folder = folder();
+    let out = path_in(&folder, "out.csv");
+    std::fs::write(&out, "old").expect("a file");
+    let others = [".tautline.notes.part", ".tautline.1.part", "my.part", ".tautline.7.0.part.bak"];
+    others.iter().for_each(|name| std::fs::write(path_in(&folder, name), "mine").expect("a file"));
+    let mut child = endless(&folder);
+    child.kill().expect("it runs");
+    child.wait().expect("it has ended");
+    assert_eq!((read(&out).as_str(), names(&folder).len()), ("old", 6), "the old file and the unfinished one");
+    // One that still runs keeps its own.
+    let mut running = endless(&folder);
+    assert_eq!(names(&folder).len(), 6, "the dead one's is removed, the new one's is there");
+    prints(&["run", "pendulum", "--seconds", "0.1", "--csv", &out]);
+    assert_eq!(names(&folder).len(), 6, "the other one still runs");
+    running.kill().expect("it runs");
+    running.wait().expect("it has ended");
+    prints(&["run", "pendulum", "--seconds", "0.1", "--csv", &out]);
+    assert_eq!(names(&folder).len(), 5);
+    assert!(read(&out).starts_with(TRAJECTORY));
+    assert!(others.iter().all(|name| read(&path_in(&folder, name)) == "mine"));
+}
+
+#[test]
+#[cfg(unix)]
+fn an_output_keeps_its_link_and_its_permissions() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = folder();
+    let [out, link] = ["out.csv", "link.csv"].map(|name| path_in(&folder, name));
+    std::fs::write(&out, "old").expect("a file");
+    std::fs::set_permissions(&out, PermissionsExt::from_mode(0o640)).expect("own permissions");
+    symlink("out.csv", &link).expect("a link");
+    prints(&["run", "pendulum", "--seconds", "0.1", "--csv", &link]);
+    assert!(Path::new(&link).is_symlink() && read(&out).starts_with(TRAJECTORY));
+    assert_eq!(Path::new(&out).metadata().expect("the file").permissions().mode() & 0o777, 0o640);
+    prints(&["run", "pendulum", "--seconds", "0.1", "--csv", "/dev/null"]);
+    let pipe = path_in(&folder, "pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs").success());
+    let reader = {
+        let pipe = pipe.clone();
+        std::thread::spawn(move || std::fs::read_to_string(pipe).expect("rows"))
+    };
+    prints(&["run", "pendulum", "--seconds", "0.1", "--csv", &pipe]);
+    assert!(reader.join().expect("it was written").starts_with(TRAJECTORY), "a pipe takes rows as they come");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_path_need_not_be_text() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = folder();
+    let own = folder.path().join(OsStr::from_bytes(b"caf\xe9"));
+    std::fs::create_dir(&own).expect("a folder");
+    let name = |bytes: &[u8]| own.join(OsStr::from_bytes(bytes)).into_os_string();
+    let scene = name(b"sc\xe8ne.ron");
+    std::fs::write(&scene, "(version: 1, truth: (seconds: 0.1, length: 1), bodies: [Particle()])").expect("a scene");
+    let [csv, measures, json, svg] = [&b"\xff.csv"[..], b"\xfe.csv", b"\xfd.jsonl", b"\xfc.svg"].map(name);
+    let given = |words: &[&OsStr]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_tautline")).args(words).output().expect("the program runs");
+        (output.status.code(), text(&output.stdout) + &text(&output.stderr))
+    };
+    let o = OsStr::new;
+    let done = |words: &[&OsStr]| {
+        let (code, said) = given(words);
+        assert_eq!(code, Some(0), "{words:?}: {said}");
+        said
+    };
+    assert!(done(&[o("check"), &scene]).contains("sc\u{fffd}ne.ron: good"));
+    done(&[o("run"), &scene, o("--seconds"), o("0.1"), o("--csv"), &csv, o("--measures"), &measures]);
+    done(&[o("truth"), &scene, o("--write"), own.as_os_str()]);
+    let quick = [o("lab"), &scene, o("--seconds"), o("0.1"), o("--methods"), o("rattle")];
+    done(&[&quick[..], &[o("--json"), &json, o("--svg"), &svg]].concat());
+    done(&[&quick[..], &[o("--resume"), &json]].concat());
+    for written in [&csv, &measures, &json, &svg, &name(b"sc\xe8ne.truth")] {
+        assert!(Path::new(written).metadata().is_ok_and(|about| about.len() > 0), "{written:?}");
+    }
+    let (code, said) = given(&[o("run"), &scene, o("--csv"), &scene]);
+    assert!(code == Some(1) && said.contains("would overwrite the scene"), "{said}");
+    let (code, said) = given(&[o("check"), &name(b"\xffmissing\x1b[31m")]);
+    assert!(code == Some(1) && said.contains("\u{fffd}missing\\u{1b}[31m: found no such file"), "{said}");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn what_never_ends_is_refused_at_once() {
+    let folder = folder();
+    let pipe = path_in(&folder, "pipe.ron");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs").success());
+    let zero = path_in(&folder, "zero.ron");
+    std::os::unix::fs::symlink("/dev/zero", &zero).expect("a link");
+    let hole = path_in(&folder, "hole.ron");
+    std::fs::File::create(&hole).and_then(|file| file.set_len(1 << 40)).expect("a hole of a terabyte");
+    let started = std::time::Instant::now();
+    for (path, found) in [
+        (pipe.as_str(), "a pipe or a device"),
+        (&zero, "a pipe or a device"),
+        (&hole, "a file of more than"),
+        ("/proc/kmsg", "a pseudo file of the system"),
+        ("/proc/self/pagemap", "a pseudo file of the system"),
+    ] {
+        fails(&["check", path], 1, found);
+        fails(&["run", path], 1, found);
+        fails(&["lab", "truth/pendulum", "--resume", path], 1, found);
+    }
+    assert!(started.elapsed().as_secs() < 30, "{:?}", started.elapsed());
+}
+
+#[test]
+fn nothing_in_a_message_acts_on_the_terminal() {
+    let acts = |text: &str| text.chars().any(|c| c.is_control() && c != '\n' || c == '\u{202e}');
+    let folder = folder();
+    let evil = "\u{1b}[31m\u{7}\u{9b}2J\u{202e}red";
+    let wrong = path_in(&folder, "wrong.ron");
+    for text in [
+        format!("(version: 1, {evil})"),
+        format!("(version: 1, title: {evil})"),
+        format!("(version: 1, bodies: [{evil}()])"),
+        format!("(version: 1, bodies: [Disc(name: \"{evil}.\")])"),
+        format!("(version: 1, bodies: [Disc()], constraints: [Rod(a: \"{evil}\", b: (0, 0))])"),
+        format!("(version: 1) {evil}"),
+        format!("#![enable({evil})] (version: 1)"),
+    ] {
+        std::fs::write(&wrong, &text).expect("a scene file");
+        for command in ["check", "run", "truth", "lab", "shot", "open"] {
+            let picture = path_in(&folder, "a.png");
+            let more = if command == "shot" { vec![picture.as_str()] } else { vec![] };
+            let output = tautline(&[&[command, &wrong][..], &more].concat());
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(output.status.code() == Some(1) && !acts(&said), "{text:?}: {said:?}");
+        }
+    }
+    let good = folder.path().join(format!("{}.ron", &evil[..4]));
+    let good = good.to_str().expect("text");
+    std::fs::write(good, format!("(version: 1, title: {evil:?}, bodies: [Particle()])")).expect("a scene file");
+    let picture = path_in(&folder, "a.jpg\u{1b}[31m");
+    for arguments in [
+        &["check", good][..],
+        &["run", good, "--seconds", "0.1"],
+        &["lab", good, "--seconds", "0.1", "--methods", "rattle"],
+        &["truth", good],
+        &["run", evil],
+        &["run", "rope", evil],
+        &["run", "rope", "--seconds", evil],
+        &["run", "rope", "--csv", &path_in(&folder, &format!("{evil}/out.csv"))],
+        &[evil],
+        &["shot", "rope", &picture],
+    ] {
+        let output = tautline(arguments);
+        let said = text(&output.stdout) + &text(&output.stderr);
+        assert!(!said.is_empty() && !acts(&said), "{arguments:?}: {said:?}");
+    }
 }
 
 #[test]

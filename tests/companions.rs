@@ -342,3 +342,23 @@ fn a_scene_that_was_changed_is_measured_against_a_refined_run() {
     session.send(Command::Lab(LabOrder::Stop));
     lab_when(&session, "the stop", |report| report.stage == Stage::Stopped);
 }
+
+#[test]
+fn the_truth_says_when_the_motion_itself_lets_errors_grow() {
+    let pendulum = |y: f64| {
+        let bob = format!("bodies: [Particle(name: \"bob\", position: (0, {y}), radius: 0)]");
+        let text = format!("(version: 1, {bob}, constraints: [Rod(a: (0, 0), b: \"bob\")])");
+        scene::parse("pendulum.ron", &text).expect("a sound scene")
+    };
+    let growth = |y: f64| {
+        let session = start(pendulum(y));
+        session.send(Command::Truth(true));
+        at_tick(&session, 120);
+        truth_of(&pause(&session)).growth.clone()
+    };
+    // sinh(2 s √(9.81/s²)) is 262; the pause comes a step or more later.
+    let fold = growth(1.0).expect("it stands on its head");
+    let factor: f64 = fold.strip_suffix("-fold").and_then(|factor| factor.parse().ok()).expect("a factor");
+    assert!(factor > 200.0, "{fold}");
+    assert_eq!(growth(-1.0), None, "it hangs");
+}

@@ -38,6 +38,7 @@ fn frame(world: World) -> Frame {
         fault: None,
         note: None,
         saved: None,
+        unsaved: None,
         undo: None,
         redo: None,
         plots: tautline::app::Plots::default(),

@@ -45,6 +45,7 @@ const BROKEN: &[(&str, usize, usize, &str)] = &[
     ("anchor_on_particle", 4, 39, "`at_a` on an end that does not turn"),
     ("bad_escape", 3, 17, "for a backslash"),
     ("binary", 1, 10, "not UTF-8"),
+    ("control_characters", 1, 14, "found `\\u{1b}`"),
     ("deep", 1, 23, "found `[`"),
     ("deep_end", 1, 36, "found `(`"),
     ("dotted_name", 3, 25, "without dots"),
@@ -607,5 +608,37 @@ proptest! {
         let built = scene::parse("random", &text);
         prop_assert!(has_position(&built, &text));
         prop_assert_eq!(built.is_ok(), document.build().is_ok());
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn many_generators_are_read_in_a_time_that_grows_with_their_number() {
+    let cpu = || {
+        let now = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+        now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+    };
+    let kinds: [fn(usize) -> String; 4] = [
+        |i| format!("Rope(name: \"rope{i}\", from: ({i}, 0), to: ({i}, -1), links: 1)"),
+        |i| format!("Stack(name: \"stack{i}\", base: ({i}, 0), count: 1)"),
+        |i| format!("Cloth(corner: ({i}, 0), columns: 2, rows: 2)"),
+        |i| format!("SoftBody(centre: ({i}, 0), nodes: 6)"),
+    ];
+    for kind in kinds {
+        let seconds = |count: usize, last: &str| {
+            let all: Vec<String> = (0..count).map(kind).chain([last.to_owned()]).collect();
+            let text = format!("(version: 1, generators: [{}])", all.join(",\n"));
+            let begun = cpu();
+            let built = scene::parse("many.ron", &text);
+            assert_eq!(built.is_ok(), last == "Rope()", "{:?}", built.err());
+            cpu() - begun
+        };
+        // The last one good, and with a mistake that is to be found.
+        for last in ["Rope()", "Rope(links: 0)"] {
+            let [few, many] = [2_000, 20_000].map(|count| (0..2).map(|_| seconds(count, last)).fold(1e9, f64::min));
+            println!("{} … {last}: {few:.3} s, ten times as many {many:.3} s", kind(0));
+            // 10 if it grows with their number, 100 with its square.
+            assert!(many < 30.0 * few.max(0.002), "{few} s, {many} s");
+        }
     }
 }

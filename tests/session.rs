@@ -21,7 +21,18 @@ fn v(x: f64, y: f64) -> DVec2 {
 fn setup(world: World) -> Setup {
     let (title, about) = ("Test".into(), String::new());
     let (name, method) = ("test".into(), Method::default());
-    Setup { name, title, about, world, method, names: Default::default(), view: None, truth: None, pass: None }
+    Setup {
+        name,
+        file: None,
+        title,
+        about,
+        world,
+        method,
+        names: Default::default(),
+        view: None,
+        truth: None,
+        pass: None,
+    }
 }
 
 fn start(world: World) -> Session {

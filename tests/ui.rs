@@ -164,6 +164,7 @@ fn bridge() -> Frame {
         fault: None,
         note: None,
         saved: None,
+        unsaved: None,
         undo: Some("Cut".into()),
         redo: None,
         touched: Arc::default(),
@@ -1102,6 +1103,16 @@ fn the_distance_from_the_truth_carries_its_error_and_so_does_a_selected_body() {
     frame.companions.truth = Some(Companion::fixed(chaotic, []));
     harness.run();
     assert!(harness.query_all_by_label_contains("unknown: chaotic after 2.10 s").next().is_some());
+}
+
+#[test]
+fn a_motion_that_lets_errors_grow_is_named_in_the_status_bar() {
+    let mut harness = harness(accompanied());
+    assert!(harness.query_all_by_label_contains("Errors grow").next().is_none());
+    let report = Report { generation: 1, growth: Some("4e5-fold".into()), ..Report::default() };
+    Arc::make_mut(&mut harness.state_mut().frame).companions.truth = Some(Companion::fixed(report, []));
+    harness.run();
+    assert!(harness.query_all_by_label_contains("Errors grow 4e5-fold").next().is_some());
 }
 
 #[test]

@@ -222,12 +222,17 @@ impl Sandbox<'_> {
         self.key("ctrl+s");
         self.key("Return");
         self.wait("the file to be saved", |_| path.exists());
-        tautline::scene::open(&path.display().to_string()).expect("what was saved can be read")
+        tautline::scene::open(&path).expect("what was saved can be read")
     }
 
     /// Closes the window by its shortcut; how it ended, and what it printed.
-    fn close(mut self) -> (ExitStatus, String) {
+    fn close(self) -> (ExitStatus, String) {
         self.key("ctrl+q");
+        self.ended()
+    }
+
+    /// Waits for its end; how it ended, and what it printed.
+    fn ended(mut self) -> (ExitStatus, String) {
         let mut status = None;
         let begin = Instant::now();
         while status.is_none() {
@@ -375,6 +380,62 @@ fn the_window_answers_while_a_step_takes_far_too_long() {
     // A step takes many seconds. A picture takes 0.05 s in software, and several times that on two cores that also run the
     // step and other programs: the window waits for the picture alone.
     assert!(median < 1000.0, "{line}");
+}
+
+#[test]
+fn a_window_that_is_destroyed_from_outside_leaves_what_was_not_saved() {
+    let Some(display) = Display::start() else { return };
+    for (edits, running) in [(true, true), (true, false), (false, true)] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut sandbox = Sandbox::open(&display, folder.path(), ONE_PARTICLE);
+        sandbox.wait("the title", |s| s.title().ends_with("One particle"));
+        if edits {
+            // Another particle, where the pointer is.
+            display.xdotool("mousemove 500 300");
+            sandbox.key("1");
+            display.xdotool("click 1");
+            std::thread::sleep(Duration::from_millis(500));
+        }
+        if !running {
+            sandbox.key("p");
+        }
+        display.xdotool(&format!("windowclose {}", sandbox.window));
+        let (status, printed) = sandbox.ended();
+        println!("{printed}");
+        let lines: Vec<&str> = printed.lines().filter(|line| line.starts_with("error: ")).collect();
+        assert!(status.code() == Some(1) && !printed.contains("panicked"), "{status:?}: {printed}");
+        assert!(lines.len() == 1 && lines[0].contains("the window was destroyed from outside"), "{printed}");
+        let rescued = folder.path().join("scene.rescued.ron");
+        assert_eq!(rescued.exists(), edits, "{printed}");
+        assert_eq!(lines[0].ends_with("is in ./scene.rescued.ron"), edits, "{printed}");
+        if edits {
+            let kept = tautline::scene::open(&rescued).expect("what was kept can be read");
+            assert_eq!((kept.world.bodies().len(), kept.title.as_str()), (2, "One particle"));
+        }
+        let own = std::fs::read_to_string(folder.path().join("scene.ron")).expect("the scene");
+        assert_eq!(own, ONE_PARTICLE, "the user's own file stays as it was");
+    }
+}
+
+#[test]
+fn a_program_that_is_asked_to_end_leaves_what_was_not_saved() {
+    let Some(display) = Display::start() else { return };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for edits in [false, true] {
+        let mut sandbox = Sandbox::open(&display, folder.path(), ONE_PARTICLE);
+        sandbox.wait("the title", |s| s.title().ends_with("One particle"));
+        if edits {
+            display.xdotool("mousemove 500 300");
+            sandbox.key("1");
+            display.xdotool("click 1");
+            std::thread::sleep(Duration::from_millis(500));
+        }
+        let asked = Command::new("kill").args(["-TERM", &sandbox.process.id().to_string()]).status().expect("kill");
+        assert!(asked.success());
+        let (status, printed) = sandbox.ended();
+        assert_eq!(status.code(), Some(i32::from(edits)), "{printed}");
+        assert_eq!(folder.path().join("scene.rescued.ron").exists(), edits, "{printed}");
+    }
 }
 
 /// What the program prints on standard error, and its exit code, without a display unless `display` names one.

@@ -10,6 +10,7 @@ pub const NAME: &str = "new scene";
 pub fn blank() -> Setup {
     Setup {
         name: NAME.into(),
+        file: None,
         title: "New scene".into(),
         about: "Empty: choose something under Add, or by a key 1 … 7, and click where it goes.".into(),
         world: World::new(),

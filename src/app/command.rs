@@ -18,6 +18,8 @@ pub enum Command {
     Slow(bool),
     /// Opens a shipped scene by name, or a scene file by path. On failure the running scene stays and a fault is shown.
     Open(String),
+    /// Opens a scene file by its path, which need not be text.
+    OpenFile(std::path::PathBuf),
     /// Opens a new, empty scene.
     New,
     /// Writes the world as it stands to a scene file.

@@ -6,6 +6,7 @@ use super::plot_data::Plots;
 use super::trace::Trace;
 use crate::engine::{DVec2, Id, Method, StepReport, World};
 use crate::measure::Measures;
+use crate::scene::Setup;
 use crate::trial::Verdict;
 use std::sync::Arc;
 use std::time::Instant;
@@ -79,6 +80,8 @@ pub struct Frame {
     pub note: Option<Arc<str>>,
     /// The file that the scene was last written to, until it is edited or left.
     pub saved: Option<String>,
+    /// The scene as it was opened, if it was edited since then and not written to a file.
+    pub unsaved: Option<Arc<Setup>>,
     /// Names of the edits that undo and redo would act on.
     pub undo: Option<String>,
     pub redo: Option<String>,

@@ -5,6 +5,7 @@ use crate::engine::{Method, World};
 use crate::lab::report::{csv, json, svg};
 use crate::lab::{Outcome, Point, Progress, Reference, Skip, Sweep, SweepOptions, refine, scene_length};
 use crate::scene::{self, SceneError, Setup};
+use crate::text::named;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -175,7 +176,7 @@ impl Laboratory {
     pub fn export(&self, path: &Path) -> Result<(), SceneError> {
         let report = self.bench.report();
         scene::save_text(path, &written(&report, path))?;
-        self.bench.change(|report| report.saved = Some(path.display().to_string()));
+        self.bench.change(|report| report.saved = Some(named(path)));
         Ok(())
     }
 }

@@ -11,9 +11,12 @@ use super::plot_data::{Plots, Sample};
 use super::trace::Trace;
 use super::{pick, setting};
 use crate::engine::{DVec2, EngineError, Grip, Id, Method, StepReport, Stepper, World};
+use crate::file::is_same;
 use crate::measure::Measures;
 use crate::scene::{self, Setup};
+use crate::text::named;
 use crate::trial::Trial;
+use std::ffi::OsStr;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -158,6 +161,7 @@ impl Simulation {
             fault: self.fault.clone(),
             note: self.note.clone(),
             saved: self.saved.clone(),
+            unsaved: self.edited.then(|| self.start.clone()),
             undo: self.history.undo_name().map(str::to_owned),
             redo: self.history.redo_name().map(str::to_owned),
             touched: self.touched.clone(),
@@ -251,10 +255,8 @@ impl Simulation {
             Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
             Command::Speed(speed) => return Err(format!("speed is {speed}, but must be between 0.01 and 10")),
             Command::Slow(slow) => self.slow = slow,
-            Command::Open(name) => {
-                let setup = scene::open(&name).map_err(|error| error.to_string())?;
-                self.open(setup, format!("Open {name}"));
-            }
+            Command::Open(name) => self.open_scene(name.as_ref())?,
+            Command::OpenFile(path) => self.open_scene(path.as_os_str())?,
             Command::New => self.open(blank(), "New scene".into()),
             Command::SaveAs(path) => self.save(&path)?,
             Command::Method(method) => {
@@ -342,7 +344,12 @@ impl Simulation {
                 Ok(())
             }
             LabOrder::Resume => self.laboratory.resume(&self.waker).map_err(|error| no_thread("lab", &error)),
-            LabOrder::Export(path) => self.laboratory.export(&path).map_err(|error| error.to_string()),
+            LabOrder::Export(path) => {
+                if self.start.file.as_ref().is_some_and(|scene| is_same(scene, &path)) {
+                    return Err(format!("{} is the open scene. Choose another name.", named(&path)));
+                }
+                self.laboratory.export(&path).map_err(|error| error.to_string())
+            }
         }
     }
 
@@ -382,6 +389,13 @@ impl Simulation {
         State { world, method, start: self.start.clone(), edited: self.edited }
     }
 
+    fn open_scene(&mut self, name_or_path: &OsStr) -> Result<(), String> {
+        let setup = scene::open(name_or_path).map_err(|error| error.to_string())?;
+        let name = format!("Open {}", setup.name);
+        self.open(setup, name);
+        Ok(())
+    }
+
     /// Starts a scene, which can be undone. A method that cannot be used shows a fault and changes nothing.
     fn open(&mut self, setup: Setup, name: String) {
         let before = self.state();
@@ -405,11 +419,12 @@ impl Simulation {
         }
         scene::save(path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
         if is_new {
-            let (name, title, about) = (path.display().to_string(), setup.title, setup.about);
-            self.start = Arc::new(Setup { name, title, about, ..(*self.start).clone() });
+            let (name, file) = (path.to_string_lossy().into_owned(), Some(path.to_owned()));
+            let (title, about) = (setup.title, setup.about);
+            self.start = Arc::new(Setup { name, file, title, about, ..(*self.start).clone() });
             self.scene = Arc::new(info(&self.start, self.opened));
         }
-        self.saved = Some(path.display().to_string());
+        self.saved = Some(named(path));
         (self.edited, self.note) = (false, None);
         Ok(())
     }
@@ -604,6 +619,7 @@ mod tests {
         let about = String::new();
         let setup = Setup {
             name: "test".into(),
+            file: None,
             title: about.clone(),
             about,
             world,

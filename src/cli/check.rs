@@ -3,6 +3,8 @@
 use super::output::Output;
 use crate::engine::World;
 use crate::scene;
+use crate::text::named;
+use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -13,7 +15,7 @@ use std::process::ExitCode;
 pub struct CheckArguments {
     /// Paths of scene files (or names of shipped scenes)
     #[arg(required = true, value_name = "FILE")]
-    files: Vec<String>,
+    files: Vec<OsString>,
 }
 
 pub(super) fn execute(arguments: &CheckArguments) -> anyhow::Result<ExitCode> {
@@ -22,7 +24,8 @@ pub(super) fn execute(arguments: &CheckArguments) -> anyhow::Result<ExitCode> {
     for file in &arguments.files {
         match scene::open(file) {
             Ok(setup) => {
-                out.line(format_args!("{file}: good. {:?}: {}", scene::shown(&setup.title), contents(&setup.world)))?
+                let (file, title) = (named(file), scene::shown(&setup.title));
+                out.line(format_args!("{file}: good. \"{title}\": {}", contents(&setup.world)))?
             }
             Err(error) => {
                 // Where nobody can be told, the exit code still tells.

@@ -1,10 +1,11 @@
 //! The commands that draw. A build without the feature `desktop` has none of that and says so.
 
 use super::ShotArguments;
+use std::ffi::OsStr;
 
 /// Opens the sandbox. A scene that is wrong is refused before any window is asked for.
 #[cfg(feature = "desktop")]
-pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
+pub(super) fn open(scene: Option<&OsStr>) -> anyhow::Result<()> {
     if let Some(scene) = scene {
         crate::scene::open(scene)?;
     }
@@ -15,6 +16,7 @@ pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
 #[cfg(feature = "desktop")]
 pub(super) fn shot(arguments: &ShotArguments) -> anyhow::Result<()> {
     let setup = crate::scene::open(&arguments.scene)?;
+    super::output::spare_scene("the picture", &arguments.file, &setup)?;
     let by = |accuracy| crate::engine::Method { automatic: true, accuracy, ..setup.method };
     let beside = crate::app::Beside { truth: arguments.ghost, rival: arguments.beside.map(by) };
     let options = crate::window::ShotOptions {
@@ -30,7 +32,7 @@ pub(super) fn shot(arguments: &ShotArguments) -> anyhow::Result<()> {
 
 /// Opens nothing, and says why.
 #[cfg(not(feature = "desktop"))]
-pub(super) fn open(scene: Option<&str>) -> anyhow::Result<()> {
+pub(super) fn open(scene: Option<&OsStr>) -> anyhow::Result<()> {
     if let Some(scene) = scene {
         crate::scene::open(scene)?;
     }

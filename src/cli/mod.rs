@@ -1,5 +1,5 @@
-//! The command line: what can be asked for, and who answers. Exit codes: 0 done, 1 failed, 2 not understood, 130 stopped
-//! with Ctrl-C.
+//! The command line: what can be asked for, and who answers. Exit codes: 0 done, 1 failed (also a window that was
+//! destroyed from outside), 2 not understood, 130 stopped with Ctrl-C.
 
 mod check;
 mod desktop;
@@ -8,10 +8,13 @@ mod numbers;
 mod output;
 pub mod run;
 mod scenes;
+mod stop;
 mod truth;
 
+use crate::text::escaped_lines;
 use clap::{Parser, Subcommand};
-use std::io::ErrorKind;
+use std::ffi::OsString;
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -31,7 +34,7 @@ pub enum Command {
     /// Opens the sandbox on a scene.
     Open {
         /// Name of a shipped scene, or path of a scene file
-        scene: String,
+        scene: OsString,
     },
     Run(run::RunArguments),
     Lab(lab::LabArguments),
@@ -47,9 +50,9 @@ pub enum Command {
 #[command(allow_negative_numbers = true)]
 pub struct ShotArguments {
     /// Name of a shipped scene, or path of a scene file
-    pub scene: String,
+    pub scene: OsString,
     /// The picture to write, a PNG file
-    #[arg(value_parser = numbers::png)]
+    #[arg(value_parser = numbers::png())]
     pub file: PathBuf,
     /// Simulated time of the picture [s]
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = numbers::seconds)]
@@ -75,7 +78,7 @@ pub fn execute(arguments: Arguments) -> anyhow::Result<ExitCode> {
     match arguments.command {
         None => desktop::open(None)?,
         Some(Command::Open { scene }) => desktop::open(Some(&scene))?,
-        Some(Command::Run(arguments)) => run::execute(&arguments)?,
+        Some(Command::Run(arguments)) => return run::execute(&arguments),
         Some(Command::Lab(arguments)) => return lab::execute(&arguments),
         Some(Command::Scenes) => scenes::execute()?,
         Some(Command::Check(arguments)) => return check::execute(&arguments),
@@ -87,11 +90,17 @@ pub fn execute(arguments: Arguments) -> anyhow::Result<ExitCode> {
 
 /// Prints what the reader of the command line has to say: help and the version, or what is wrong.
 pub fn say(answer: &clap::Error) -> anyhow::Result<ExitCode> {
-    let code = ExitCode::from(if answer.use_stderr() { 2 } else { 0 });
-    match answer.print() {
-        Err(error) if !answer.use_stderr() => Err(output::Output::stdout().explain(error).into()),
-        _ => Ok(code),
+    // What was typed stands in it.
+    let text = escaped_lines(&answer.render().to_string());
+    if !answer.use_stderr() {
+        let mut out = output::Output::stdout();
+        out.write_all(text.as_bytes())?;
+        out.flush()?;
+        return Ok(ExitCode::SUCCESS);
     }
+    // Where nobody can be told, the exit code still tells.
+    let _ = std::io::stderr().write_all(text.as_bytes());
+    Ok(ExitCode::from(2))
 }
 
 /// Whether an error only says that the reader of our output has gone.

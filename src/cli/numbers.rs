@@ -1,7 +1,8 @@
 //! Numbers of the command line: durations, sizes, counts, with errors that say what is accepted.
 
 use crate::lab::{Family, rate_fits};
-use std::path::PathBuf;
+use clap::builder::{PathBufValueParser, TypedValueParser};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The longest run that is accepted [s]: over eleven days.
@@ -74,9 +75,11 @@ pub(super) fn family(text: &str) -> Result<Family, String> {
 }
 
 /// A picture that is text.
-pub(super) fn svg(text: &str) -> Result<String, String> {
-    let fits = text == "-" || text.to_ascii_lowercase().ends_with(".svg") || text.starts_with("/dev/");
-    fits.then(|| text.to_owned()).ok_or_else(|| "expected the name of an SVG file, such as diagram.svg, or -".into())
+pub(super) fn svg() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| {
+        let fits = path == Path::new("-") || ends_in(&path, "svg") || path.starts_with("/dev/");
+        fits.then_some(path).ok_or("expected the name of an SVG file, such as diagram.svg, or -")
+    })
 }
 
 /// A picture's width and height [pixels].
@@ -89,10 +92,14 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// The path of a picture, which is a PNG file whatever it is called: another ending would only mislead.
-pub(super) fn png(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    let fits = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-    fits.then_some(path).ok_or_else(|| "expected the name of a PNG file, such as picture.png".into())
+pub(super) fn png() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| {
+        ends_in(&path, "png").then_some(path).ok_or("expected the name of a PNG file, such as picture.png")
+    })
+}
+
+fn ends_in(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
 fn number(text: &str, low: f64, high: f64, expected: &str) -> Result<f64, String> {

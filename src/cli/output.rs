@@ -1,46 +1,60 @@
-//! Where rows go: a file or standard output, and whether two names stand for the same one.
+//! Where rows go: a file or standard output.
 
-use crate::scene::behind_links;
-use anyhow::Context;
+use crate::file::{self, Sink, WriteError, check_writable, is_special, write_whole};
+use crate::text::named;
+use anyhow::anyhow;
 use std::fmt::Display;
-use std::fs::{File, Metadata};
-use std::io::{BufWriter, ErrorKind, Seek, SeekFrom, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The name of standard output.
 const STDOUT: &str = "-";
 
 /// A file or standard output, buffered. Its errors name the file and say what to do.
+///
+/// A file appears, in place of an old one, when it is committed; without that the old one stays. A pipe or a device
+/// takes what is written as it comes.
 pub(super) struct Output {
     name: String,
-    inner: BufWriter<Box<dyn Write>>,
+    inner: Inner,
+}
+
+enum Inner {
+    Stdout(BufWriter<std::io::Stdout>),
+    Once(BufWriter<Sink>),
+    /// Written anew, whole, at every flush.
+    Journal {
+        path: PathBuf,
+        bytes: Vec<u8>,
+    },
 }
 
 impl Output {
-    /// Creates or empties the file `name`; `-` is standard output.
-    pub(super) fn create(name: &str) -> anyhow::Result<Output> {
-        if name == STDOUT {
+    /// Begins the file `path`; `-` is standard output.
+    pub(super) fn create(path: &Path) -> anyhow::Result<Output> {
+        // A file that the shell has opened for us already is no file to replace.
+        if is_stdout(path) {
             return Ok(Output::stdout());
         }
-        let file = File::create(Path::new(name)).with_context(|| format!("cannot create {name}"))?;
-        Ok(Output { name: name.to_owned(), inner: BufWriter::new(Box::new(file)) })
+        let sink = Sink::create(path).map_err(|error| cannot_create(path, &error))?;
+        Ok(Output { name: named(path), inner: Inner::Once(BufWriter::new(sink)) })
     }
 
-    /// Opens the file `name`, cuts it after its first `keep` bytes and goes on there.
-    pub(super) fn append(name: &str, keep: u64) -> anyhow::Result<Output> {
-        let open = || -> std::io::Result<File> {
-            let mut file = File::options().write(true).open(name)?;
-            file.set_len(keep)?;
-            file.seek(SeekFrom::End(0))?;
-            Ok(file)
-        };
-        let file = open().with_context(|| format!("cannot go on with {name}"))?;
-        Ok(Output { name: name.to_owned(), inner: BufWriter::new(Box::new(file)) })
+    /// Begins the file `path` with `bytes`, all of which is on the disk after every flush, whatever happens then. For
+    /// what is written seldom and is never large.
+    pub(super) fn journal(path: &Path, bytes: Vec<u8>) -> anyhow::Result<Output> {
+        if is_stdout(path) || is_special(path) {
+            let mut output = Output::create(path)?;
+            output.write_all(&bytes)?;
+            return Ok(output);
+        }
+        check_writable(path).map_err(|error| cannot_create(path, &error))?;
+        Ok(Output { name: named(path), inner: Inner::Journal { path: path.to_owned(), bytes } })
     }
 
     /// Standard output.
     pub(super) fn stdout() -> Output {
-        Output { name: "to standard output".to_owned(), inner: BufWriter::new(Box::new(std::io::stdout())) }
+        Output { name: "to standard output".to_owned(), inner: Inner::Stdout(BufWriter::new(std::io::stdout())) }
     }
 
     /// Writes a line that somebody waits for.
@@ -49,69 +63,73 @@ impl Output {
         self.flush()
     }
 
-    pub(super) fn explain(&self, error: std::io::Error) -> std::io::Error {
-        let name = &self.name;
-        let advice = match error.kind() {
-            ErrorKind::BrokenPipe => return error,
-            ErrorKind::StorageFull => {
-                format!("cannot write {name}: the disk is full; free some space or write elsewhere")
-            }
-            _ => format!("cannot write {name}: {error}"),
+    /// Ends it: what was written is complete, and a file takes its place.
+    pub(super) fn commit(mut self) -> std::io::Result<()> {
+        self.flush()?;
+        let Output { name, inner: Inner::Once(buffer) } = self else { return Ok(()) };
+        let committed = match buffer.into_inner() {
+            Ok(sink) => sink.commit().map_err(std::io::Error::from),
+            Err(error) => Err(error.into_error()),
         };
-        std::io::Error::new(error.kind(), advice)
+        committed.map_err(|error| explain(&name, error))
     }
+}
+
+fn cannot_create(path: &Path, error: &WriteError) -> anyhow::Error {
+    anyhow!("cannot create {}: {error}", named(path))
+}
+
+fn explain(name: &str, error: std::io::Error) -> std::io::Error {
+    let advice = match error.kind() {
+        ErrorKind::BrokenPipe => return error,
+        ErrorKind::StorageFull => {
+            format!("cannot write {name}: the disk is full; free some space or write elsewhere")
+        }
+        _ => format!("cannot write {name}: {error}"),
+    };
+    std::io::Error::new(error.kind(), advice)
 }
 
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.inner.write(bytes).map_err(|error| self.explain(error))
+        let Output { name, inner } = self;
+        let written = match inner {
+            Inner::Stdout(out) => out.write(bytes),
+            Inner::Once(out) => out.write(bytes),
+            Inner::Journal { bytes: all, .. } => all.write(bytes),
+        };
+        written.map_err(|error| explain(name, error))
     }
 
     fn flush(&mut self) -> std::io::Result<()> {
-        self.inner.flush().map_err(|error| self.explain(error))
+        let Output { name, inner } = self;
+        let flushed = match inner {
+            Inner::Stdout(out) => out.flush(),
+            Inner::Once(out) => out.flush(),
+            Inner::Journal { path, bytes } => write_whole(path, bytes).map_err(std::io::Error::from),
+        };
+        flushed.map_err(|error| explain(name, error))
     }
 }
 
-/// Whether what is written to `name` ends up where standard output goes.
-pub(super) fn is_stdout(name: &str) -> bool {
-    is_same(name, STDOUT)
+/// Whether what is written to `path` ends up where standard output goes.
+pub(super) fn is_stdout(path: &Path) -> bool {
+    is_same(path, Path::new(STDOUT))
 }
 
-/// Whether two names stand for one file or pipe, through links too and before the file is there.
-pub(super) fn is_same(a: &str, b: &str) -> bool {
-    a == b || identity(a).is_some_and(|a| identity(b) == Some(a))
+/// Whether two names stand for one file or pipe, of which one may be `-`.
+pub(super) fn is_same(a: &Path, b: &Path) -> bool {
+    a == b || file::is_same(system_name(a), system_name(b))
 }
 
-/// What a file is known by, whatever it is called.
-#[derive(PartialEq)]
-enum Identity {
-    /// Device and number on it.
-    #[cfg(unix)]
-    Inode(u64, u64),
-    /// The path without links, of a file that is not there yet or where nothing better is known.
-    Path(PathBuf),
+fn system_name(path: &Path) -> &Path {
+    if cfg!(unix) && path == Path::new(STDOUT) { Path::new("/dev/stdout") } else { path }
 }
 
-fn identity(name: &str) -> Option<Identity> {
-    let path = Path::new(if cfg!(unix) && name == STDOUT { "/dev/stdout" } else { name });
-    match path.metadata() {
-        Ok(about) => identity_of_existing(path, &about),
-        Err(_) => {
-            let target = behind_links(path);
-            let folder = Path::new(".").join(target.parent()?).canonicalize().ok()?;
-            Some(Identity::Path(folder.join(target.file_name()?)))
-        }
+/// Refuses an output over a scene that is read, which only a scene of a file can be.
+pub(super) fn spare_scene(option: &str, path: &Path, setup: &crate::scene::Setup) -> anyhow::Result<()> {
+    match setup.file.as_deref().filter(|scene| is_same(path, scene)) {
+        Some(scene) => anyhow::bail!("{option} would overwrite the scene {}: give it another file name", named(scene)),
+        None => Ok(()),
     }
-}
-
-/// `None` for terminals, the null device and the like, which keep nothing that could be mixed up.
-#[cfg(unix)]
-fn identity_of_existing(_: &Path, about: &Metadata) -> Option<Identity> {
-    use std::os::unix::fs::{FileTypeExt, MetadataExt};
-    (!about.file_type().is_char_device()).then(|| Identity::Inode(about.dev(), about.ino()))
-}
-
-#[cfg(not(unix))]
-fn identity_of_existing(path: &Path, _: &Metadata) -> Option<Identity> {
-    path.canonicalize().ok().map(Identity::Path)
 }

@@ -1,10 +1,13 @@
 //! `tautline truth`: computes the exact motion of a scene and compares or writes it.
 
-use super::output::Output;
+use super::output::{Output, spare_scene};
+use crate::file::write_whole;
 use crate::measure::error_against;
 use crate::scene::{self, Setup, Truth};
+use crate::text::named;
 use crate::truth::{self, ClosedForm, Trajectory};
 use anyhow::Context;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -18,7 +21,7 @@ use std::time::Instant;
 #[command(group(clap::ArgGroup::new("what").required(true).args(["scene", "all"])))]
 pub struct TruthArguments {
     /// Name of a shipped scene such as truth/rope, or path of a scene file
-    scene: Option<String>,
+    scene: Option<OsString>,
     /// All shipped scenes that have a truth
     #[arg(long)]
     all: bool,
@@ -31,16 +34,21 @@ pub struct TruthArguments {
 }
 
 pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
-    let names: Vec<&str> = match &arguments.scene {
+    let names: Vec<&OsStr> = match &arguments.scene {
         Some(scene) => vec![scene],
-        None => scene::truth_scenes().iter().map(|scene| scene.name).collect(),
+        None => scene::truth_scenes().iter().map(|scene| OsStr::new(scene.name)).collect(),
     };
     if let Some(folder) = arguments.write.as_deref().filter(|folder| !folder.is_dir()) {
         // Before minutes are spent on what could not be kept.
-        anyhow::bail!("cannot write into {}: it is not a folder; create it first", folder.display());
+        anyhow::bail!("cannot write into {}: it is not a folder; create it first", named(folder));
     }
-    for name in names {
-        let setup = scene::open(name)?;
+    for path in names {
+        let setup = scene::open(path)?;
+        let name = named(path);
+        let target = arguments.write.as_deref().map(|folder| target(folder, path));
+        if let Some(target) = &target {
+            spare_scene("--write", target, &setup)?;
+        }
         let Some(span) = setup.truth else {
             anyhow::bail!(
                 "{name} has no truth: add `truth: (seconds: 10, length: 1)` to the scene, or name truth/rope"
@@ -56,10 +64,10 @@ pub(super) fn execute(arguments: &TruthArguments) -> anyhow::Result<()> {
             continue;
         }
         let started = Instant::now();
-        let found = truth::converge(&setup.world, span.seconds, span.length).with_context(|| name.to_owned())?;
+        let found = truth::converge(&setup.world, span.seconds, span.length).with_context(|| name.clone())?;
         say(&setup, &found, started.elapsed().as_secs_f64())?;
-        if let Some(folder) = &arguments.write {
-            write(folder, name, &found)?;
+        if let Some(target) = &target {
+            write_whole(target, &truth::to_bytes(&found)).with_context(|| format!("cannot write {}", named(target)))?;
         }
         anyhow::ensure!(
             !arguments.check
@@ -78,7 +86,7 @@ fn say(setup: &Setup, found: &Trajectory, seconds: f64) -> std::io::Result<()> {
     let agreement = found.agreement;
     Output::stdout().line(format_args!(
         "{}: agreement {agreement:.1e}, {stored}, {samples} samples of {bodies} bodies in {seconds:.1} s",
-        setup.name
+        named(&setup.name)
     ))
 }
 
@@ -92,12 +100,15 @@ fn say_of_form(setup: &Setup, form: ClosedForm, span: Truth) -> anyhow::Result<(
     };
     let (samples, bodies) = (exact.positions.len(), setup.world.bodies().len());
     let name = form.name();
-    Ok(Output::stdout()
-        .line(format_args!("{}: closed form {name}, {samples} samples of {bodies} bodies; {check}", setup.name))?)
+    Ok(Output::stdout().line(format_args!(
+        "{}: closed form {name}, {samples} samples of {bodies} bodies; {check}",
+        named(&setup.name)
+    ))?)
 }
 
-fn write(folder: &Path, name: &str, found: &Trajectory) -> anyhow::Result<()> {
-    let stem = Path::new(name).file_stem().unwrap_or_default();
-    let path = folder.join(stem).with_extension("truth");
-    std::fs::write(&path, truth::to_bytes(found)).with_context(|| format!("cannot write {}", path.display()))
+/// The file for the motion of a scene.
+fn target(folder: &Path, scene: &OsStr) -> PathBuf {
+    let mut name = Path::new(scene).file_stem().unwrap_or_default().to_owned();
+    name.push(".truth");
+    folder.join(name)
 }

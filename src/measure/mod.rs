@@ -3,10 +3,12 @@
 
 mod drift;
 mod error;
+mod growth;
 mod uncertain;
 
 pub use drift::EnergyDrift;
 pub use error::{Distance, ErrorSum, error_against, observed_order};
+pub use growth::{Growth, SENSITIVE};
 pub use uncertain::Uncertain;
 
 use crate::engine::constraint::Constraints;

@@ -264,6 +264,7 @@ mod tests {
             fault: None,
             note: None,
             saved: None,
+            unsaved: None,
             undo: None,
             redo: None,
             touched: std::sync::Arc::default(),

@@ -1,6 +1,9 @@
 //! Pictures without a window: a canvas of any size, read back and written as PNG.
 
 use super::{Colour, Gpu, Picture, Renderer, Viewport};
+use crate::file::{Sink, WriteError};
+use crate::text::named;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Format of the off-screen target.
@@ -21,8 +24,8 @@ pub enum OffscreenError {
     Size { width: u32, height: u32, largest: u32 },
     #[error("the picture could not be read back from the graphics adapter: {0}")]
     ReadBack(String),
-    #[error("the picture could not be written to {}: {source}", path.display())]
-    Write { path: PathBuf, source: std::io::Error },
+    #[error("the picture could not be written to {}: {source}", named(path))]
+    Write { path: PathBuf, source: WriteError },
 }
 
 /// What a hook draws with: the device, the open encoder, and the target that holds the scene.
@@ -141,9 +144,12 @@ impl Image {
 
     /// Writes a PNG, or says why it cannot.
     pub fn write_png(&self, path: &Path) -> Result<(), OffscreenError> {
-        let failed = |source: std::io::Error| OffscreenError::Write { path: path.to_owned(), source };
-        let file = std::fs::File::create(path).map_err(failed)?;
-        self.encode(std::io::BufWriter::new(file)).map_err(|error| failed(error.into()))
+        let failed = |source: WriteError| OffscreenError::Write { path: path.to_owned(), source };
+        let mut bytes = Vec::new();
+        self.encode(&mut bytes).map_err(|error| failed(std::io::Error::from(error).into()))?;
+        let mut file = Sink::create(path).map_err(failed)?;
+        file.write_all(&bytes).map_err(|error| failed(error.into()))?;
+        file.commit().map_err(failed)
     }
 
     fn encode(&self, to: impl std::io::Write) -> Result<(), png::EncodingError> {

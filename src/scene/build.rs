@@ -3,7 +3,7 @@
 use super::Setup;
 use super::document::{BodyEntry, BodyFields, ConstraintEntry, Document, End, Settings, Truth, WallEntry};
 use super::error::{Fault, Problem, SceneError};
-use super::generator::check_point;
+use super::generator::{FreeGroups, check_point};
 use super::names::Names;
 use super::pass::Pass;
 use crate::engine::{Anchor, Body, Constraint, DVec2, Kind, Shape, Spin, Wall, World};
@@ -26,10 +26,11 @@ impl Document {
         for (index, entry) in self.bodies.iter().enumerate() {
             add_body(&mut world, &mut names, entry).map_err(|fault| fault.inside("bodies", index))?;
         }
+        let mut groups = FreeGroups::default();
         for (index, generator) in self.generators.iter().enumerate() {
             let inside = |fault: Fault| fault.inside("generators", index);
             let first = world.bodies().len();
-            let layout = generator.build(&mut world).map_err(inside)?;
+            let layout = generator.build(&mut world, &mut groups).map_err(inside)?;
             if let Some(name) = generator.name() {
                 names.add_nodes(name, first, layout).map_err(inside)?;
             }
@@ -43,6 +44,7 @@ impl Document {
         let truth = self.checked_truth(&world)?;
         Ok(Setup {
             name: name.to_owned(),
+            file: None,
             title: if self.title.is_empty() { name.to_owned() } else { self.title.clone() },
             about: self.about.clone(),
             names: names.of_bodies(&world.bodies().id),

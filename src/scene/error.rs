@@ -1,12 +1,14 @@
 //! What is wrong with a scene file: where, what was found, what was expected, and how to mend it.
 
 use crate::engine::EngineError;
+use crate::text::escaped;
 use std::borrow::Cow;
 use std::fmt;
 
-/// The one message about a scene that cannot be used.
+/// The one message about a scene that cannot be used. It is fit for a terminal, whatever stands in the file and its
+/// name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{place}: {problem}")]
+#[error("{}", escaped(&format!("{place}: {problem}")))]
 pub struct SceneError {
     pub place: Place,
     pub problem: Box<Problem>,
@@ -68,12 +70,13 @@ impl SceneError {
     }
 }
 
-/// A name or a text of a file as a message shows it: its beginning, if it is long.
+/// A name or a text of a file as a message shows it: its beginning, if it is long, with nothing in it that a terminal
+/// obeys.
 pub(crate) fn shown(name: &str) -> Cow<'_, str> {
     const LONGEST: usize = 48;
     match name.char_indices().nth(LONGEST) {
-        Some((end, _)) => Cow::Owned(format!("{}…", &name[..end])),
-        None => Cow::Borrowed(name),
+        Some((end, _)) => Cow::Owned(format!("{}…", escaped(&name[..end]))),
+        None => escaped(name),
     }
 }
 

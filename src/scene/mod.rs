@@ -26,18 +26,20 @@ pub use error::{Place, SceneError};
 pub use generator::Generator;
 pub use pass::{Limit, Pass};
 pub use read::{LARGEST_FILE, open, parse, read_file};
-pub(crate) use save::behind_links;
 pub use save::{save, save_text, to_ron};
 pub use shipped::{Shipped, every_scene, find_shipped, hard_scenes, sections, shipped, truth_scenes};
 
 use crate::engine::{DVec2, Id, Method, World};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// A scene ready to run.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// Shipped name ("bridge") or path.
+    /// Shipped name ("bridge") or path, as far as that is text.
     pub name: String,
+    /// The file that it was read from, if it was.
+    pub file: Option<PathBuf>,
     pub title: String,
     pub about: String,
     pub world: World,

@@ -5,12 +5,13 @@ use super::error::{Fault, Place, Problem, SceneError, shown};
 use super::locate::{line_and_column, locate};
 use super::nearest::nearest;
 use super::{Setup, every_scene, find_shipped};
+use crate::file::{Unreadable, read_bounded};
 use ron::Options;
 use ron::error::SpannedError;
 use ron::extensions::Extensions;
 use serde::Deserialize;
-use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::ffi::OsStr;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The largest scene file that is read [bytes].
@@ -20,12 +21,15 @@ pub const LARGEST_FILE: u64 = 16 * 1024 * 1024;
 const DEEPEST: usize = 32;
 
 /// Opens a shipped scene by its name or a scene file by its path, ready to run.
-pub fn open(name_or_path: &str) -> Result<Setup, SceneError> {
-    let text = match find_shipped(name_or_path) {
-        Some(scene) => scene.text.to_owned(),
-        None => read_file(Path::new(name_or_path)).map_err(|error| suggest_shipped(error, name_or_path))?,
-    };
-    parse(name_or_path, &text)
+pub fn open(name_or_path: impl AsRef<OsStr>) -> Result<Setup, SceneError> {
+    let path = Path::new(name_or_path.as_ref());
+    let name = path.to_string_lossy();
+    if let Some(scene) = find_shipped(path) {
+        return parse(&name, scene.text);
+    }
+    let text = read_file(path).map_err(|error| suggest_shipped(error, path))?;
+    let setup = parse(&name, &text)?;
+    Ok(Setup { file: Some(path.to_owned()), ..setup })
 }
 
 /// Reads and builds the scene in `text`; `name` is what errors call it and the setup's name.
@@ -63,46 +67,36 @@ pub(crate) fn options() -> Options {
     Options::default().with_default_extension(extensions).with_recursion_limit(DEEPEST)
 }
 
-/// Reads a scene file as text. Refuses what is too large without reading it.
+/// Reads a scene file as text. Refuses, without reading or waiting, what is too large or no file on a disk.
 pub fn read_file(path: &Path) -> Result<String, SceneError> {
-    let name = path.display().to_string();
-    let bytes = read_bytes(path, &name)?;
+    let name = path.to_string_lossy();
+    let bytes =
+        read_bounded(path, LARGEST_FILE).map_err(|error| SceneError::file(name.as_ref(), unreadable(&error)))?;
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
         let found = format!("the byte 0x{:02x}, which is not UTF-8", error.as_bytes()[valid]);
         let mend = "Save the file as UTF-8 text, or check that it is a scene at all.";
-        SceneError::text(&name, line_and_column(&text, valid), Problem::new(found, "text in UTF-8", mend))
+        SceneError::text(name.as_ref(), line_and_column(&text, valid), Problem::new(found, "text in UTF-8", mend))
     })
 }
 
-fn read_bytes(path: &Path, name: &str) -> Result<Vec<u8>, SceneError> {
-    let unreadable = |error: std::io::Error| SceneError::file(name, unreadable(&error));
-    // Before it is opened: a pipe that nobody writes to would be waited for without end.
-    let about = std::fs::metadata(path).map_err(unreadable)?;
-    if about.is_dir() {
-        let problem = Problem::new("a folder", "a scene file", "Name a file in it, for example one that ends in .ron.");
-        return Err(SceneError::file(name, problem));
-    }
-    if !about.is_file() {
-        let problem = Problem::new("a pipe or a device", "a scene file", "Write the scene to a file and name that.");
-        return Err(SceneError::file(name, problem));
-    }
-    let mut bytes = Vec::new();
-    // One byte past the limit is enough to know of a file that grows.
-    if about.len() <= LARGEST_FILE {
-        let file = File::open(path).map_err(unreadable)?;
-        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    }
-    if about.len().max(bytes.len() as u64) > LARGEST_FILE {
-        let found = format!("a file of more than {} MB", LARGEST_FILE / 1024 / 1024);
-        let mend = "Check that it is a scene; large scenes are written with generators such as Pile(count: 20000).";
-        return Err(SceneError::file(name, Problem::new(found, "a scene of at most 16 MB", mend)));
-    }
-    Ok(bytes)
+fn unreadable(error: &Unreadable) -> Problem {
+    const FILE: &str = "a scene file";
+    const SCENE: &str = "a scene file or the name of a shipped scene";
+    let (expected, mend) = match error {
+        Unreadable::Folder => (FILE, "Name a file in it, for example one that ends in .ron."),
+        Unreadable::Special | Unreadable::Pseudo => (FILE, "Write the scene to a file on a disk and name that."),
+        Unreadable::Large { .. } => (
+            "a scene of at most 16 MB",
+            "Check that it is a scene; large scenes are written with generators such as Pile(count: 20000).",
+        ),
+        Unreadable::System(error) => return unreadable_to_system(error, SCENE),
+    };
+    Problem::new(error.to_string(), expected, mend)
 }
 
-fn unreadable(error: &std::io::Error) -> Problem {
+fn unreadable_to_system(error: &std::io::Error, expected: &str) -> Problem {
     let (found, mend) = match error.kind() {
         ErrorKind::NotFound => ("no such file".to_owned(), "Check the name; `tautline scenes` lists the shipped ones."),
         ErrorKind::PermissionDenied => {
@@ -110,14 +104,14 @@ fn unreadable(error: &std::io::Error) -> Problem {
         }
         _ => (format!("a file that cannot be read ({error})"), "Check the path and the disk."),
     };
-    Problem::new(found, "a scene file or the name of a shipped scene", mend)
+    Problem::new(found, expected, mend)
 }
 
 /// Names the shipped scene that was probably meant, if the file does not exist.
-fn suggest_shipped(mut error: SceneError, name: &str) -> SceneError {
-    if let Some(known) = nearest(name, every_scene().iter().map(|scene| scene.name))
+fn suggest_shipped(mut error: SceneError, path: &Path) -> SceneError {
+    if let Some(known) = nearest(&path.to_string_lossy(), every_scene().iter().map(|scene| scene.name))
         && matches!(error.place, Place::File(_))
-        && !Path::new(name).exists()
+        && !path.exists()
     {
         error.problem.mend = format!("Did you mean `{known}`? `tautline scenes` lists the shipped ones.");
     }

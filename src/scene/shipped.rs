@@ -3,6 +3,7 @@
 use super::document::Document;
 use super::pass::Pass;
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::sync::LazyLock;
 
 /// A scene inside the program.
@@ -127,6 +128,6 @@ pub fn every_scene() -> &'static [Shipped] {
 }
 
 /// The scene of that name, of any section.
-pub fn find_shipped(name: &str) -> Option<&'static Shipped> {
-    every_scene().iter().find(|scene| scene.name == name)
+pub fn find_shipped(name: impl AsRef<OsStr>) -> Option<&'static Shipped> {
+    every_scene().iter().find(|scene| name.as_ref() == scene.name)
 }

@@ -26,6 +26,11 @@ pub fn show(ui: &mut Ui, frame: &Frame, selection: &[Id]) {
                     item(ui, label, text, colour, &help);
                 }
             }
+            if let Some(fold) = frame.companions.truth.as_ref().and_then(|truth| truth.report().growth.clone()) {
+                let help =
+                    "By how much this motion itself has let errors grow: no accuracy of the steps can help that.";
+                item(ui, "Errors grow", fold, colours.warning, help);
+            }
             kept(ui, frame);
             selected(ui, frame, selection);
             item(ui, "Bodies", count(world.bodies().len()), colours.text, "Bodies in the world.");

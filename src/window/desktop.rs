@@ -1,14 +1,16 @@
 //! The event loop's side of the window: opens it, hands events to the panels, and draws when there is a reason to.
 
-use super::interpolation;
 use super::screen::{Screen, View};
 use super::timing::Timing;
-use crate::app::{Camera, Command, Frame, Session};
+use super::{interpolation, quietly};
+use crate::app::{Camera, Command, Frame, Session, rescue};
 use crate::engine::DVec2;
 use crate::scene::{SceneError, Setup};
+use crate::text::{escaped, named};
 use crate::ui::{Shell, ShellOutput};
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use egui_winit::accesskit_winit;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -30,6 +32,8 @@ const HIDDEN_DELAY: Duration = Duration::from_millis(100);
 pub enum Wake {
     /// The simulation published a frame.
     Frame,
+    /// The system asks the program to end.
+    Leave,
     /// A screen reader asks for something.
     Access(accesskit_winit::Event),
 }
@@ -47,19 +51,41 @@ pub struct Desktop {
     setup: Option<JoinHandle<Result<Setup, SceneError>>>,
     sandbox: Option<Sandbox>,
     failure: Option<anyhow::Error>,
+    /// Where unsaved work went when something failed.
+    rescued: Option<Result<PathBuf, String>>,
     timing: Timing,
 }
 
 impl Desktop {
     /// A desktop that will open its window when the loop starts.
     pub fn new(proxy: EventLoopProxy<Wake>, setup: JoinHandle<Result<Setup, SceneError>>, timing: Timing) -> Desktop {
-        Desktop { proxy, setup: Some(setup), sandbox: None, failure: None, timing }
+        Desktop { proxy, setup: Some(setup), sandbox: None, failure: None, rescued: None, timing }
     }
 
-    /// Ends the session; what went wrong, if anything did.
+    /// Ends the session; what went wrong, if anything did, and what became of unsaved work then.
     pub fn finish(mut self) -> anyhow::Result<()> {
         self.timing.report();
-        self.failure.map_or(Ok(()), Err)
+        let Some(failure) = self.failure else { return Ok(()) };
+        Err(match self.rescued {
+            None => failure,
+            Some(Ok(path)) => anyhow!("{failure:#}; the scene with its unsaved changes is in {}", named(path)),
+            Some(Err(why)) => anyhow!("{failure:#}; unsaved changes of the scene are lost: {why}"),
+        })
+    }
+
+    /// Ends the session after a panic in the event loop. What is tied to the display is left to the end of the process:
+    /// it may be half changed.
+    pub fn abandon(mut self, mut failure: anyhow::Error) -> anyhow::Result<()> {
+        if let Some(sandbox) = self.sandbox.take() {
+            self.rescued = self.rescued.or_else(|| rescue(&sandbox.session.frame()));
+            failure = cause(&sandbox.window, failure);
+            let Sandbox { screen, input, egui, window, session, .. } = sandbox;
+            std::mem::forget((screen, input, egui, window));
+            drop(session);
+        }
+        // The cause comes first: a window that is gone makes more fail.
+        self.failure.get_or_insert(failure);
+        self.finish()
     }
 
     fn open(
@@ -101,8 +127,17 @@ impl Desktop {
     }
 
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: anyhow::Error) {
-        self.failure = Some(error);
+        self.rescued = self.sandbox.as_ref().and_then(|sandbox| rescue(&sandbox.session.frame()));
+        self.failure = Some(match &self.sandbox {
+            Some(sandbox) => cause(&sandbox.window, error),
+            None => error,
+        });
         event_loop.exit();
+    }
+
+    /// The open window, unless it failed: then nothing may be asked of it any more.
+    fn usable(&mut self) -> Option<&mut Sandbox> {
+        self.sandbox.as_mut().filter(|_| self.failure.is_none())
     }
 }
 
@@ -130,14 +165,16 @@ impl ApplicationHandler<Wake> for Desktop {
     }
 
     fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
-        if let (StartCause::ResumeTimeReached { .. }, Some(sandbox)) = (cause, &self.sandbox) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(sandbox)) = (cause, self.usable()) {
             sandbox.window.request_redraw();
         }
     }
 
     fn user_event(&mut self, event_loop: &ActiveEventLoop, wake: Wake) {
-        let Some(sandbox) = &mut self.sandbox else { return };
+        let Some(sandbox) = self.usable() else { return };
         match wake {
+            Wake::Leave if sandbox.session.frame().unsaved.is_none() => event_loop.exit(),
+            Wake::Leave => self.fail(event_loop, anyhow!("the program was asked to end from outside")),
             // Steps come at their own pace, pictures at the monitor's.
             Wake::Frame => event_loop.set_control_flow(sandbox.next(Duration::ZERO)),
             Wake::Access(event) => {
@@ -148,9 +185,10 @@ impl ApplicationHandler<Wake> for Desktop {
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        let Some(sandbox) = &mut self.sandbox else { return };
+        let Some(sandbox) = self.sandbox.as_mut().filter(|_| self.failure.is_none()) else { return };
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::Destroyed => self.fail(event_loop, destroyed()),
             WindowEvent::RedrawRequested => match sandbox.redraw(event_loop, &mut self.timing) {
                 Ok(next) => event_loop.set_control_flow(next),
                 Err(error) => self.fail(event_loop, error),
@@ -192,7 +230,7 @@ impl Sandbox {
     fn handle(&mut self, event: &WindowEvent, timing: &mut Timing) {
         match event {
             WindowEvent::Resized(size) => self.screen.resize([size.width, size.height]),
-            WindowEvent::DroppedFile(path) => self.session.send(Command::Open(path.display().to_string())),
+            WindowEvent::DroppedFile(path) => self.session.send(Command::OpenFile(path.clone())),
             WindowEvent::KeyboardInput { .. } | WindowEvent::CursorMoved { .. } | WindowEvent::MouseInput { .. } => {
                 timing.input();
             }
@@ -266,9 +304,21 @@ impl Sandbox {
         let name = if scene.title.is_empty() { &scene.name } else { &scene.title };
         if self.title != *name {
             self.title.clone_from(name);
-            self.window.set_title(&format!("Tautline – {name}"));
+            self.window.set_title(&format!("Tautline – {}", escaped(name)));
         }
     }
+}
+
+/// What is said of a window that another program, or the display, took away.
+fn destroyed() -> anyhow::Error {
+    anyhow!("the window was destroyed from outside")
+}
+
+/// What lies behind a failure: where the window is gone, that. winit asks the display for its size, and takes it for
+/// granted that the display knows the window.
+fn cause(window: &Window, failure: anyhow::Error) -> anyhow::Error {
+    let (size, _) = quietly(|| window.inner_size());
+    if size.is_some() { failure } else { destroyed() }
 }
 
 /// The scene that was read meanwhile.

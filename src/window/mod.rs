@@ -10,19 +10,23 @@ mod timing;
 pub use shot::{ShotOptions, shot};
 
 use crate::scene;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use desktop::{Desktop, Wake};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ffi::{OsStr, OsString};
+use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError};
 use timing::Timing;
 use winit::event_loop::EventLoop;
 
 /// Opens the sandbox on a shipped scene (the first one if none is named) or a scene file, and returns when the window is closed.
 ///
 /// # Errors
-/// One line each: no display, a missing system library, no graphics adapter, a scene that cannot be opened.
-pub fn run(scene: Option<&str>) -> anyhow::Result<()> {
+/// One line each: no display, a missing system library, no graphics adapter, a scene that cannot be opened; a window that was
+/// destroyed from outside, a panic, or a request of the system to end while something is unsaved, with the file in which the
+/// unsaved scene was kept.
+pub fn run(scene: Option<&OsStr>) -> anyhow::Result<()> {
     let timing = Timing::start();
-    let name = scene.unwrap_or(scene::shipped()[0].name).to_owned();
+    let name: OsString = scene.map_or_else(|| scene::shipped()[0].name.into(), OsStr::to_owned);
     // Read while the window and the graphics device are being set up.
     let setup = std::thread::spawn(move || scene::open(&name));
     let event_loop = match event_loop() {
@@ -33,21 +37,67 @@ pub fn run(scene: Option<&str>) -> anyhow::Result<()> {
             return Err(error);
         }
     };
+    let proxy = event_loop.create_proxy();
+    // Where such requests are ignored that stays so.
+    let _ = ctrlc::try_set_handler(move || drop(proxy.send_event(Wake::Leave)));
     let mut desktop = Desktop::new(event_loop.create_proxy(), setup, timing);
-    event_loop.run_app(&mut desktop).context("the window system ended the program")?;
-    desktop.finish()
+    let (ended, panic) = quietly(|| event_loop.run_app(&mut desktop));
+    match ended {
+        Some(Ok(())) => desktop.finish(),
+        Some(Err(error)) => desktop.abandon(anyhow::Error::new(error).context("the window system ended the program")),
+        None => desktop.abandon(panic.map_or_else(|| anyhow!("the window failed"), |panic| panic.error())),
+    }
+}
+
+/// Where and why a thread panicked.
+struct Panic {
+    place: String,
+    message: String,
+}
+
+impl Panic {
+    fn of(info: &PanicHookInfo<'_>) -> Panic {
+        let place = info.location().map_or(String::new(), |at| {
+            // Its folder is one of the machine that the program was compiled on.
+            let file = at.file().rsplit(['/', '\\']).next().unwrap_or_default();
+            format!("{file}:{}", at.line())
+        });
+        Panic { place, message: info.payload_as_str().unwrap_or("no message").to_owned() }
+    }
+
+    fn error(&self) -> anyhow::Error {
+        anyhow!("the window failed, which is a defect of Tautline ({}: {})", self.place, self.message)
+    }
+}
+
+/// Does `act`, and catches a panic of it, of which nothing is printed: a message for a programmer is no use to a user.
+/// Panics of other threads are told as ever.
+fn quietly<T>(act: impl FnOnce() -> T) -> (Option<T>, Option<Panic>) {
+    let caught = Arc::new(Mutex::new(None));
+    let (here, found) = (std::thread::current().id(), caught.clone());
+    let shown: Arc<dyn Fn(&PanicHookInfo<'_>) + Send + Sync> = std::panic::take_hook().into();
+    let others = shown.clone();
+    std::panic::set_hook(Box::new(move |info| {
+        if std::thread::current().id() != here {
+            return others(info);
+        }
+        let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
+        // The first is the cause; what is dropped on the way out may panic as well.
+        found.get_or_insert_with(|| Panic::of(info));
+    }));
+    let done = catch_unwind(AssertUnwindSafe(act)).ok();
+    std::panic::set_hook(Box::new(move |info| shown(info)));
+    let panic = caught.lock().unwrap_or_else(PoisonError::into_inner).take();
+    (done, panic)
 }
 
 /// Connects to the display.
 fn event_loop() -> anyhow::Result<EventLoop<Wake>> {
-    // winit panics where libxkbcommon-x11 is missing. Only its message is for a programmer, so it is not shown.
-    let shown = std::panic::take_hook();
-    std::panic::set_hook(Box::new(|_| {}));
-    let built = catch_unwind(AssertUnwindSafe(|| EventLoop::with_user_event().build()));
-    std::panic::set_hook(shown);
+    // winit panics where libxkbcommon-x11 is missing.
+    let (built, _) = quietly(|| EventLoop::with_user_event().build());
     match built {
-        Ok(Ok(event_loop)) => Ok(event_loop),
-        Ok(Err(error)) => {
+        Some(Ok(event_loop)) => Ok(event_loop),
+        Some(Err(error)) => {
             log::info!("{error}");
             Err(anyhow!(
                 "no window can be opened: {}; start it in a desktop session, or use `tautline run` and `tautline shot`, \
@@ -55,7 +105,7 @@ fn event_loop() -> anyhow::Result<EventLoop<Wake>> {
                 display_problem()
             ))
         }
-        Err(_) => Err(anyhow!(
+        None => Err(anyhow!(
             "no window can be opened: a library of the X window system is missing; on Debian or Ubuntu install \
              libxkbcommon-x11-0, libxcursor1 and libxi6"
         )),

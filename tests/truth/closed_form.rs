@@ -99,6 +99,49 @@ fn drag_tends_to_none_and_to_the_terminal_velocity() {
 }
 
 #[test]
+fn a_hardly_damped_fall_is_nearly_a_free_one_and_a_heavily_damped_one_keeps_its_terminal_speed() {
+    let (v, g) = (DVec2::new(3.0, 4.0), DVec2::new(0.0, -9.81));
+    for drag in [0.0, 5e-324, 1e-300, 1e-20, 1e-12, 1e-6] {
+        let (position, velocity) = fall_with_drag(DVec2::ONE, v, g, drag, 3.0);
+        let free = projectile(DVec2::ONE, v, g, 3.0);
+        // The first term of drag: −drag (½ v t² + g t³/6), and one of second order.
+        let first = free - drag * (4.5 * v + 4.5 * g);
+        assert!((position - first).length() < 1e-13 + 100.0 * drag * drag, "{drag:e}: {position} {first}");
+        assert!((velocity - (v + 3.0 * g)).length() < 1e-13 + 200.0 * drag, "{drag:e}: {velocity}");
+    }
+    for drag in [10.0, 1e3, 1e6] {
+        let (position, velocity) = fall_with_drag(DVec2::ZERO, v, g, drag, 100.0);
+        let (terminal, lost) = (g / drag, (v - g / drag) / drag);
+        assert!((velocity - terminal).length() <= 1e-15 * terminal.length(), "{drag:e}: {velocity}");
+        let expected = 100.0 * terminal + lost;
+        assert!((position - expected).length() <= 1e-14 * expected.length(), "{drag:e}: {position} {expected}");
+    }
+    // Both ways of calculation meet where one takes over.
+    let [below, above] = [0.5f64.next_down(), 0.5].map(|drag| fall_with_drag(DVec2::ZERO, v, g, drag, 1.0).0);
+    assert!((below - above).length() < 1e-15, "{below} {above}");
+}
+
+#[test]
+fn an_oscillator_however_damped_or_light_or_stiff_has_a_place() {
+    for damping in [0.0, 1e-300, 1e-9, 1.0, 19.999_999_999, 20.0, 20.000_000_001, 40.0, 1e4, 1e8, 1e12] {
+        for (mass, stiffness) in [(1.0, 100.0), (1e-12, 1e12), (1e12, 1e-6)] {
+            let oscillator = Oscillator { mass, stiffness, damping, position: 0.25, velocity: -0.1 };
+            for t in [0.0, 1e-9, 0.1, 4.0, 3600.0] {
+                let (x, v) = oscillator.at(t);
+                // ½ m v² + ½ k x² never grows.
+                let energy = |x: f64, v: f64| 0.5 * mass * v * v + 0.5 * stiffness * x * x;
+                let kept = energy(x, v) <= energy(0.25, -0.1) * (1.0 + 1e-9);
+                assert!(kept, "damping {damping:e}, mass {mass:e}, t {t}: {x:e}, {v:e}");
+            }
+        }
+    }
+    // Far above criticality it creeps: m v̇ is nothing beside c v = −k x.
+    let creeping = Oscillator { mass: 1.0, stiffness: 100.0, damping: 1e12, position: 0.25, velocity: 0.0 };
+    let (x, v) = creeping.at(1e9);
+    assert!((x - 0.25 * (-0.1f64).exp()).abs() < 1e-15 && (v + 1e-10 * x).abs() < 1e-24, "{x} {v}");
+}
+
+#[test]
 fn the_three_regimes_of_an_oscillator_meet() {
     let oscillator = |damping| Oscillator { mass: 1.0, stiffness: 100.0, damping, position: 0.3, velocity: -2.0 };
     // k = 100, m = 1: critical at c = 20.

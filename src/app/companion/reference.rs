@@ -3,7 +3,8 @@
 use super::report::{Report, Standing};
 use super::separation::{Gap, Separation};
 use super::{Beginning, Extent, Follower, Input, Pose};
-use crate::engine::{EngineError, Id, Integrator, LinearSolver, Method, Solver, World};
+use crate::engine::{EngineError, Id, Integrator, LinearSolver, Method, Solver, StepReport, World};
+use crate::measure::Growth;
 use crate::truth::Trajectory;
 use std::sync::Arc;
 
@@ -49,6 +50,8 @@ pub(super) struct Reference {
     rates: Vec<(u64, f64)>,
     source: Source,
     separation: Separation,
+    /// How the motion itself treats errors.
+    growth: Growth,
     /// Step and time of the simulation that was reached last.
     tick: u64,
     time: f64,
@@ -83,9 +86,11 @@ impl Reference {
             None => Source::Over { after: beginning.world.time(), touched: true },
         };
         let (tick, time) = (beginning.world.tick(), beginning.world.time());
+        let (method, length) = (Method { hz: beginning.hz, ..beginning.start.method }, beginning.length());
         let mut reference = Reference {
             extent,
-            length: beginning.length(),
+            length,
+            growth: Growth::new(&beginning.world, &method, length).map_err(|error| error.to_string())?,
             rates: vec![(0, beginning.hz)],
             steps: 0,
             source,
@@ -105,6 +110,9 @@ impl Reference {
     pub fn input(&mut self, input: &Input, goes_on: &dyn Fn() -> bool) -> Result<(), String> {
         if let Input::Rate(hz) = input {
             self.rates.push((self.steps, *hz));
+            self.growth.set_rate(*hz).map_err(|error| error.to_string())?;
+        } else {
+            self.growth.change(|world| input.apply(world).is_ok());
         }
         if input.touches() && matches!(self.source, Source::Known(_)) {
             self.leave_known(true, goes_on)?;
@@ -141,6 +149,10 @@ impl Reference {
     pub fn step(&mut self, here: &Pose, goes_on: &dyn Fn() -> bool) -> Result<Option<Gap>, String> {
         self.steps += 1;
         (self.tick, self.time) = (here.tick, here.time);
+        if matches!(self.source, Source::Known(_) | Source::Computed(_)) {
+            // It may cost as much as ten steps of every body.
+            self.growth.step(&StepReport { bodies: here.position.len(), ..StepReport::default() });
+        }
         let is_over = |known: &Trajectory| known.times.last().is_none_or(|end| here.time > end + SAME_TIME);
         match &mut self.source {
             Source::Known(known) if is_over(known) => self.leave_known(false, goes_on)?,
@@ -214,6 +226,7 @@ impl Reference {
             gap: self.separation.gap.filter(|_| !ended),
             so_far: self.separation.so_far(),
             parting: self.separation.parting,
+            growth: self.growth.fold(),
             offsets: if ended { Arc::default() } else { self.separation.offsets.clone() },
             frame: None,
         }

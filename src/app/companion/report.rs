@@ -47,6 +47,8 @@ pub struct Report {
     /// Root mean square of the distance over all samples so far [m].
     pub so_far: f64,
     pub parting: Option<Parting>,
+    /// "4e5-fold", where the motion itself lets errors grow by so much.
+    pub growth: Option<String>,
     pub offsets: Arc<Offsets>,
     /// The rival's own picture; nobody else has one.
     pub frame: Option<Arc<Frame>>,

@@ -80,6 +80,7 @@ impl Rival {
             gap: self.separation.gap,
             so_far: self.separation.so_far(),
             parting: self.separation.parting,
+            growth: None,
             offsets: self.separation.offsets.clone(),
             frame: Some(Arc::new(frame)),
         }
@@ -109,6 +110,7 @@ impl Rival {
             fault: None,
             note: None,
             saved: None,
+            unsaved: None,
             undo: None,
             redo: None,
             touched: Arc::default(),

@@ -1,22 +1,26 @@
 //! The folder with the page about accuracy: `data` (a file of JSON lines a scene, and the machine), `lab` (the diagrams), and
 //! `accuracy.md`.
 
+use crate::file::{read_bounded, write_whole};
 use crate::lab::Point;
 use crate::lab::report::page::{Machine, ScenePoints, page, scenes, stem};
 use crate::lab::report::{json, svg::svg};
+use crate::text::named;
 use anyhow::Context;
 use std::path::{Path, PathBuf};
 
 const MACHINE: &str = "machine.json";
+/// The largest file of data that is read [bytes].
+const LARGEST: u64 = 64 * 1024 * 1024;
 
 /// Makes the folders, before minutes are spent on what could not be kept.
 pub(super) fn check(folder: &Path) -> anyhow::Result<()> {
     if !folder.is_dir() {
-        anyhow::bail!("cannot write into {}: it is not a folder; create it first", folder.display());
+        anyhow::bail!("cannot write into {}: it is not a folder; create it first", named(folder));
     }
     for part in ["data", "lab"] {
         let part = folder.join(part);
-        std::fs::create_dir_all(&part).with_context(|| format!("cannot create {}", part.display()))?;
+        std::fs::create_dir_all(&part).with_context(|| format!("cannot create {}", named(&part)))?;
     }
     Ok(())
 }
@@ -38,12 +42,12 @@ pub(super) fn keep_machine(folder: &Path) -> anyhow::Result<()> {
 pub(super) fn draw(folder: &Path) -> anyhow::Result<()> {
     let path = folder.join("data").join(MACHINE);
     let machine: Machine = serde_json::from_str(&read(&path)?)
-        .with_context(|| format!("cannot read {}: measure anew without --redraw", path.display()))?;
+        .with_context(|| format!("cannot read {}: measure anew without --redraw", named(&path)))?;
     check(folder)?;
     let mut measured = Vec::new();
     for shipped in scenes() {
         let path = data_of(folder, shipped.name);
-        let (points, _) = json::read(&read(&path)?).with_context(|| format!("cannot read {}", path.display()))?;
+        let (points, _) = json::read(&read(&path)?).with_context(|| format!("cannot read {}", named(&path)))?;
         let scene = ScenePoints { name: shipped.name.to_owned(), title: shipped.title.to_owned(), points };
         let picture = folder.join("lab").join(scene.stem()).with_extension("svg");
         write(&picture, svg(&scene.title, &scene.points).as_bytes())?;
@@ -57,10 +61,10 @@ fn data_of(folder: &Path, name: &str) -> PathBuf {
 }
 
 fn read(path: &Path) -> anyhow::Result<String> {
-    let advice = || format!("cannot read {}: measure anew without --redraw", path.display());
-    std::fs::read_to_string(path).with_context(advice)
+    let advice = || format!("cannot read {}: measure anew without --redraw", named(path));
+    String::from_utf8(read_bounded(path, LARGEST).with_context(advice)?).with_context(advice)
 }
 
 fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    std::fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()))
+    write_whole(path, bytes).with_context(|| format!("cannot write {}", named(path)))
 }

@@ -6,16 +6,18 @@ mod progress;
 
 use super::numbers;
 use super::output::Output;
+use super::stop;
 use crate::lab::report::{page::scenes, table::table, text::diagram};
 use crate::lab::{Family, Front, Outcome, Point, Reference, Setting, Skip, Sweep, SweepOptions, refine, scene_length};
 use crate::scene::{self, Setup};
+use crate::text::{escaped, named};
 use outputs::Outputs;
 use progress::{ProgressLine, spoken};
+use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Compared over so long where a scene does not say [s].
@@ -35,7 +37,7 @@ const SECONDS: f64 = 3.0;
 pub struct LabArguments {
     /// Names of shipped scenes, or paths of scene files
     #[arg(value_name = "SCENE")]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
     /// All scenes whose exact motion is known: it is stored in the program, or has a formula
     #[arg(long)]
     truth: bool,
@@ -44,17 +46,17 @@ pub struct LabArguments {
     all: bool,
     /// Write every point as a line of JSON to a file, or to standard output with `-`
     #[arg(long, value_name = "FILE")]
-    json: Option<String>,
+    json: Option<PathBuf>,
     /// Write every point as a row of CSV to a file, or `-`
     #[arg(long, value_name = "FILE")]
-    csv: Option<String>,
+    csv: Option<PathBuf>,
     /// Draw the diagram of a single scene into an SVG file, or `-`
-    #[arg(long, value_name = "FILE", value_parser = numbers::svg)]
-    svg: Option<String>,
+    #[arg(long, value_name = "FILE", value_parser = numbers::svg())]
+    svg: Option<PathBuf>,
     /// Go on with the lines of JSON in a file that was written before, with the same options: they are not measured again, new
     /// ones are added
     #[arg(long, value_name = "FILE")]
-    resume: Option<String>,
+    resume: Option<PathBuf>,
     /// Simulated time to compare over [s]; if not given that of the scene's exact motion, or 3
     #[arg(long, value_parser = numbers::seconds)]
     seconds: Option<f64>,
@@ -90,14 +92,13 @@ pub struct LabArguments {
 
 impl LabArguments {
     /// The scenes asked for, each once.
-    fn names(&self) -> Vec<&str> {
+    fn names(&self) -> Vec<&OsStr> {
         let shipped = if self.all { scene::every_scene().to_vec() } else { scenes() };
-        let mut names: Vec<&str> = Vec::new();
-        let asked = self.scenes.iter().map(String::as_str);
+        let mut names: Vec<&OsStr> = Vec::new();
         if self.scenes.is_empty() {
-            names.extend(shipped.iter().map(|scene| scene.name))
+            names.extend(shipped.iter().map(|scene| OsStr::new(scene.name)))
         } else {
-            names.extend(asked)
+            names.extend(self.scenes.iter().map(OsString::as_os_str))
         }
         let mut seen = Vec::new();
         names.retain(|name| {
@@ -120,9 +121,6 @@ impl LabArguments {
     }
 }
 
-/// Set by Ctrl-C.
-static CANCEL: AtomicBool = AtomicBool::new(false);
-
 pub(super) fn execute(arguments: &LabArguments) -> anyhow::Result<ExitCode> {
     if let Some(folder) = arguments.docs.as_deref().filter(|_| arguments.redraw) {
         docs::draw(folder)?;
@@ -130,38 +128,35 @@ pub(super) fn execute(arguments: &LabArguments) -> anyhow::Result<ExitCode> {
     }
     let names = arguments.names();
     // Before minutes are spent: every scene must open, and every file.
-    let setups = names.iter().map(|name| scene::open(name)).collect::<Result<Vec<Setup>, _>>()?;
+    let setups = names.iter().map(scene::open).collect::<Result<Vec<Setup>, _>>()?;
     if let Some(folder) = &arguments.docs {
         docs::check(folder)?;
     }
-    let mut outputs = Outputs::open(arguments, &names)?;
-    // A second Ctrl-C does not wait. Without a handler Ctrl-C ends the program, and the files hold what they hold.
-    let _ = ctrlc::set_handler(|| {
-        if CANCEL.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
+    let mut outputs = Outputs::open(arguments, &setups)?;
+    stop::listen();
     let begun = Instant::now();
     for (index, setup) in setups.iter().enumerate() {
         let place = Place { name: &setup.name, index, count: setups.len(), begun, budget: arguments.budget };
         let points = measure(arguments, setup, &place, &mut outputs)?;
-        if let Some(folder) = arguments.docs.as_deref().filter(|_| !stopped()) {
+        if let Some(folder) = arguments.docs.as_deref().filter(|_| !stop::asked()) {
             docs::keep(folder, &setup.name, &points)?;
         }
-        if stopped() {
-            outputs.say("stopped: what was measured is in the files that were asked for; --resume goes on from a file of --json")?;
-            return Ok(ExitCode::from(130));
+        if stop::asked() {
+            let told = outputs.points_on_stdout;
+            outputs.finish()?;
+            say(
+                told,
+                "stopped: what was measured is in the files that were asked for; --resume goes on from a file of --json",
+            )?;
+            return Ok(stop::code());
         }
     }
+    outputs.finish()?;
     if let Some(folder) = &arguments.docs {
         docs::keep_machine(folder)?;
         docs::draw(folder)?;
     }
     Ok(ExitCode::SUCCESS)
-}
-
-fn stopped() -> bool {
-    CANCEL.load(Ordering::Relaxed)
 }
 
 /// Where in the list a scene stands.
@@ -191,7 +186,7 @@ impl Place<'_> {
 
 impl std::fmt::Display for Place<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} ({} of {})", self.name, self.index + 1, self.count)
+        write!(f, "{} ({} of {})", escaped(self.name), self.index + 1, self.count)
     }
 }
 
@@ -215,7 +210,7 @@ fn measure(
             let left = place.left(progress.seconds_left);
             format!("{place}: {} of {} settings, {left}", progress.done, progress.total)
         });
-        match sweep.advance(&CANCEL) {
+        match sweep.advance(&stop::ASKED) {
             Outcome::Point(point) => outputs.write(&point)?,
             Outcome::Skipped(_, Skip::TooSlow) => slow += 1,
             Outcome::Skipped(..) => {}
@@ -225,7 +220,7 @@ fn measure(
     line.clear();
     outputs.draw(&setup.title, sweep.points())?;
     let skipped = if slow > 0 { format!("; {slow} settings are too slow to be measured") } else { String::new() };
-    outputs.say(&format!("{}: {} points{skipped}; {label}", setup.name, sweep.points().len()))?;
+    outputs.say(&format!("{}: {} points{skipped}; {label}", named(&setup.name), sweep.points().len()))?;
     outputs.say(&summary(sweep.points()))?;
     Ok(sweep.points().to_vec())
 }
@@ -245,7 +240,7 @@ fn reference(
         return (Some(known), label);
     }
     let length = setup.truth.map_or_else(|| scene_length(&setup.world), |truth| truth.length);
-    let found = refine(&setup.world, setup.method, seconds, length, arguments.refine, &CANCEL, &mut |report| {
+    let found = refine(&setup.world, setup.method, seconds, length, arguments.refine, &stop::ASKED, &mut |report| {
         line.tell(|| format!("{place}: reference, run {}, {:.0} %", report.level + 1, 100.0 * report.part));
     });
     match found {
@@ -275,6 +270,11 @@ fn summary(points: &[Point]) -> String {
 impl Outputs {
     /// Prints a text where it does not stand between points.
     fn say(&self, text: &str) -> std::io::Result<()> {
-        if self.points_on_stdout { writeln!(std::io::stderr(), "{text}") } else { Output::stdout().line(text) }
+        say(self.points_on_stdout, text)
     }
+}
+
+/// On standard error where points are on standard output.
+fn say(points_on_stdout: bool, text: &str) -> std::io::Result<()> {
+    if points_on_stdout { writeln!(std::io::stderr(), "{text}") } else { Output::stdout().line(text) }
 }

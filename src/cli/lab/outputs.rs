@@ -1,18 +1,24 @@
 //! The files that points go to while they are measured.
 
 use super::LabArguments;
-use crate::cli::output::{Output, is_same, is_stdout};
+use crate::cli::output::{Output, is_same, is_stdout, spare_scene};
+use crate::file::{Unreadable, read_bounded};
 use crate::lab::Point;
 use crate::lab::report::{csv, json, svg::svg};
-use crate::scene::find_shipped;
+use crate::scene::Setup;
+use crate::text::{escaped, named};
 use anyhow::Context;
 use std::io::{ErrorKind, Write};
+use std::path::Path;
+
+/// The largest file of points that is gone on with [bytes]: a hundred thousand of them.
+const LARGEST: u64 = 64 * 1024 * 1024;
 
 /// What is written, point after point; every point is on disk before the next is measured.
 pub(super) struct Outputs {
     json: Option<Output>,
     csv: Option<Output>,
-    /// The name: it is written whole at the end of a scene.
+    /// Written whole at the end of the scene.
     svg: Option<Output>,
     resumed: Vec<Point>,
     /// Whether the lines of `json` hold the resumed points already.
@@ -22,7 +28,7 @@ pub(super) struct Outputs {
 
 impl Outputs {
     /// Opens all files, after a look at whether they get in each other's way or the scenes'.
-    pub fn open(arguments: &LabArguments, scenes: &[&str]) -> anyhow::Result<Outputs> {
+    pub fn open(arguments: &LabArguments, scenes: &[Setup]) -> anyhow::Result<Outputs> {
         let LabArguments { json, csv, svg, resume, .. } = arguments;
         // The same file for both goes on with it.
         let appends = match (json, resume) {
@@ -30,31 +36,38 @@ impl Outputs {
             (None, Some(_)) => true,
             _ => false,
         };
-        let named = [
+        let named_files = [
             ("--resume", resume.as_deref()),
             ("--json", json.as_deref().filter(|_| !appends)),
             ("--csv", csv.as_deref()),
             ("--svg", svg.as_deref()),
         ];
-        let named: Vec<(&str, &str)> = named.into_iter().filter_map(|(option, file)| Some((option, file?))).collect();
-        check(&named, scenes)?;
-        let (resumed, whole) = resume.as_deref().map(read).transpose()?.unwrap_or_default();
-        if let Some(stray) = resumed.iter().find(|point| !scenes.contains(&point.scene.as_str())) {
-            let file = resume.as_deref().unwrap_or_default();
-            anyhow::bail!("{file} has points of {}: name that scene too, or another file", stray.scene);
+        let files: Vec<(&str, &Path)> =
+            named_files.into_iter().filter_map(|(option, file)| Some((option, file?))).collect();
+        check(&files, scenes)?;
+        let (resumed, kept) = resume.as_deref().map(read).transpose()?.unwrap_or_default();
+        if let Some(stray) = resumed.iter().find(|point| scenes.iter().all(|scene| scene.name != point.scene)) {
+            let file = named(resume.as_deref().unwrap_or(Path::new("")));
+            anyhow::bail!("{file} has points of {}: name that scene too, or another file", escaped(&stray.scene));
         }
         let json = match (json, resume) {
-            (_, Some(file)) if appends => Some(Output::append(file, whole)?),
-            (json, _) => json.as_deref().map(Output::create).transpose()?,
+            (_, Some(file)) if appends => Some(Output::journal(file, kept)?),
+            (json, _) => json.as_deref().map(|file| Output::journal(file, Vec::new())).transpose()?,
         };
-        let mut csv = csv.as_deref().map(Output::create).transpose()?;
-        if let Some(out) = &mut csv {
-            writeln!(out, "{}", csv::HEADER)?;
-            out.flush()?;
-        }
+        let header = format!("{}\n", csv::HEADER).into_bytes();
+        let csv = csv.as_deref().map(|file| Output::journal(file, header)).transpose()?;
         let svg = svg.as_deref().map(Output::create).transpose()?;
-        let points_on_stdout = named.iter().any(|(_, file)| is_stdout(file));
+        let points_on_stdout = files.iter().any(|(_, file)| is_stdout(file));
         Ok(Outputs { json, csv, svg, resumed, appends, points_on_stdout })
+    }
+
+    /// Ends them; there may have been nothing to measure.
+    pub fn finish(mut self) -> std::io::Result<()> {
+        self.flush()
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        [&mut self.json, &mut self.csv].into_iter().flatten().try_for_each(Output::flush)
     }
 
     /// The points of a scene that were measured before; they are written on where they are not yet.
@@ -66,43 +79,41 @@ impl Outputs {
             }
             self.write_csv(point)?;
         }
+        self.flush()?;
         Ok(points)
     }
 
     pub fn write(&mut self, point: &Point) -> std::io::Result<()> {
         self.write_json(point)?;
-        self.write_csv(point)
+        self.write_csv(point)?;
+        self.flush()
     }
 
     fn write_json(&mut self, point: &Point) -> std::io::Result<()> {
         let Some(out) = &mut self.json else { return Ok(()) };
-        json::write(out, point)?;
-        out.flush()
+        json::write(out, point)
     }
 
     fn write_csv(&mut self, point: &Point) -> std::io::Result<()> {
         let Some(out) = &mut self.csv else { return Ok(()) };
-        csv::write(out, point)?;
-        out.flush()
+        csv::write(out, point)
     }
 
-    /// Draws the scene.
+    /// Draws the scene, of which there is one where a picture is asked for.
     pub fn draw(&mut self, title: &str, points: &[Point]) -> std::io::Result<()> {
-        let Some(out) = &mut self.svg else { return Ok(()) };
+        let Some(mut out) = self.svg.take() else { return Ok(()) };
         out.write_all(svg(title, points).as_bytes())?;
-        out.flush()
+        out.commit()
     }
 }
 
 /// Refuses two outputs in one place, one over a scene, and one picture of several scenes.
-fn check(named: &[(&str, &str)], scenes: &[&str]) -> anyhow::Result<()> {
-    for (index, (option, file)) in named.iter().enumerate() {
-        if let Some((other, _)) = named[..index].iter().find(|(_, other)| is_same(other, file)) {
+fn check(files: &[(&str, &Path)], scenes: &[Setup]) -> anyhow::Result<()> {
+    for (index, (option, file)) in files.iter().enumerate() {
+        if let Some((other, _)) = files[..index].iter().find(|(_, other)| is_same(other, file)) {
             anyhow::bail!("{other} and {option} cannot both go to the same place: give one of them another file name");
         }
-        if let Some(scene) = scenes.iter().find(|scene| find_shipped(scene).is_none() && is_same(file, scene)) {
-            anyhow::bail!("{option} would overwrite the scene {scene}: give it another file name");
-        }
+        scenes.iter().try_for_each(|scene| spare_scene(option, file, scene))?;
         if *option == "--svg" && scenes.len() > 1 {
             anyhow::bail!("--svg draws one scene, and {} are named: name one, or leave it out", scenes.len());
         }
@@ -113,14 +124,19 @@ fn check(named: &[(&str, &str)], scenes: &[&str]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The points in a file, and how many of its bytes are whole lines.
-fn read(file: &str) -> anyhow::Result<(Vec<Point>, u64)> {
-    let advice = |error: &std::io::Error| match error.kind() {
-        ErrorKind::NotFound => format!("; measure into it with --json {file} first"),
+/// The points in a file, and its whole lines.
+fn read(file: &Path) -> anyhow::Result<(Vec<Point>, Vec<u8>)> {
+    let name = named(file);
+    let advice = |error: &Unreadable| match error {
+        Unreadable::System(error) if error.kind() == ErrorKind::NotFound => {
+            format!("; measure into it with --json {name} first")
+        }
         _ => String::new(),
     };
-    let text = std::fs::read_to_string(file)
-        .map_err(|error| anyhow::anyhow!("cannot resume from {file}: {error}{}", advice(&error)))?;
-    let (points, whole) = json::read(&text).with_context(|| format!("cannot resume from {file}"))?;
-    Ok((points, whole as u64))
+    let bytes = read_bounded(file, LARGEST)
+        .map_err(|error| anyhow::anyhow!("cannot resume from {name}: {error}{}", advice(&error)))?;
+    let mut text = String::from_utf8(bytes).with_context(|| format!("cannot resume from {name}"))?;
+    let (points, whole) = json::read(&text).with_context(|| format!("cannot resume from {name}"))?;
+    text.truncate(whole);
+    Ok((points, text.into_bytes()))
 }

@@ -5,12 +5,19 @@ mod stepping;
 mod watch;
 
 use super::numbers;
-use super::output::{Output, is_same, is_stdout};
+use super::output::{Output, is_same, is_stdout, spare_scene};
+use super::stop;
 use crate::engine::{Integrator, LinearSolver, Method, Solver};
-use crate::scene;
+use crate::lab::scene_length;
+use crate::measure::Growth;
+use crate::scene::{self, Setup};
+use crate::text::named;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use rows::Rows;
+use std::ffi::OsString;
 use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::Instant;
 use stepping::{Sampling, run};
 use watch::{Refined, Watch};
@@ -27,15 +34,19 @@ use watch::{Refined, Watch};
 /// substeps; violation_rms [m]; energy, the sum [J]; energy_drift, the energy
 /// less that at the start, in parts of the largest kinetic energy plus the spread of the other energies so far;
 /// error_rms and error_max, the distance from the exact motion over all bodies [m], and error_rms_percent and error_max_percent,
-/// the same in percent of the length that the scene names; order, with --order.
+/// the same in percent of the length that the scene names; order, with --order; growth, by accuracy: by how much at most the motion
+/// has let a disturbance at the start grow so far (folded chains, upright and double pendulums amplify errors, and no
+/// accuracy of the steps can help that), up to where something goes through the substeps.
 ///
 /// The error columns are empty where no exact motion is known: in scenes without a `truth` entry, after its seconds, and between
 /// the samples of a truth, which are 1/60 s apart. The last line tells the error over all samples that the run has met.
+///
+/// Files appear when the run ends, whole, in place of old ones; Ctrl-C ends it early and keeps what there is.
 #[derive(Debug, clap::Args)]
 #[command(allow_negative_numbers = true)]
 pub struct RunArguments {
     /// Name of a shipped scene, or path of a scene file
-    scene: String,
+    scene: OsString,
     /// Simulated time [s]
     #[arg(long, default_value = "10", value_parser = numbers::seconds)]
     seconds: f64,
@@ -44,11 +55,11 @@ pub struct RunArguments {
     every: Option<f64>,
     /// Write time,id,x,y,angle,vx,vy,omega of every body to a file, or to standard output with `-`
     #[arg(long, value_name = "FILE")]
-    csv: Option<String>,
+    csv: Option<PathBuf>,
     /// Write energies and their drift, momenta, violation, penetration, contacts, the mean time of a step and, where it is known,
     /// the error to a file, or `-`; the columns are explained above
     #[arg(long, value_name = "FILE")]
-    measures: Option<String>,
+    measures: Option<PathBuf>,
     /// Steps a second, in place of the scene's
     #[arg(long, value_parser = numbers::hz)]
     hz: Option<f64>,
@@ -137,21 +148,17 @@ impl RunArguments {
     }
 
     /// The options that name a file to write, with that name.
-    fn outputs(&self) -> impl Iterator<Item = (&'static str, &str)> {
+    fn outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         let named = [("--csv", self.csv.as_deref()), ("--measures", self.measures.as_deref())];
         named.into_iter().filter_map(|(option, file)| Some((option, file?)))
     }
 
     /// Refuses to write two tables into one file, or one over the scene.
-    fn check_outputs(&self) -> anyhow::Result<()> {
+    fn check_outputs(&self, setup: &Setup) -> anyhow::Result<()> {
         if self.csv.as_deref().zip(self.measures.as_deref()).is_some_and(|(csv, measures)| is_same(csv, measures)) {
             anyhow::bail!("--csv and --measures cannot both go to the same place: give one of them another file name");
         }
-        let is_scene = |file| scene::find_shipped(&self.scene).is_none() && is_same(file, &self.scene);
-        if let Some((option, _)) = self.outputs().find(|(_, file)| is_scene(file)) {
-            anyhow::bail!("{option} would overwrite the scene {}: give it another file name", self.scene);
-        }
-        Ok(())
+        self.outputs().try_for_each(|(option, file)| spare_scene(option, file, setup))
     }
 
     /// Where the hash and the summary go: not between rows of CSV.
@@ -161,9 +168,9 @@ impl RunArguments {
     }
 }
 
-pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
+pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     let setup = scene::open(&arguments.scene)?;
-    arguments.check_outputs()?;
+    arguments.check_outputs(&setup)?;
     let method = arguments.method(setup.method);
     if let Some(note) = arguments.without_effect(&method) {
         writeln!(std::io::stderr(), "note: {note}")?;
@@ -178,19 +185,25 @@ pub(super) fn execute(arguments: &RunArguments) -> anyhow::Result<()> {
         trajectory: trajectory.as_mut().map(|output| output as &mut dyn Write),
         measures: measures.as_mut().map(|output| output as &mut dyn Write),
     };
-    let mut watch = Watch::new(&setup.world, exact, refined);
+    let length = setup.truth.map_or_else(|| scene_length(&setup.world), |truth| truth.length);
+    let growth = method.automatic.then(|| Growth::new(&setup.world, &method, length)).transpose()?;
+    let mut watch = Watch::new(&setup.world, exact, refined, growth);
+    stop::listen();
     let started = Instant::now();
     let finish = run(setup.world, method, sampling, &mut rows, &mut watch)?;
-    let spent = started.elapsed().as_secs_f64();
-    [trajectory, measures].into_iter().flatten().try_for_each(|mut output| output.flush())?;
+    let spent = started.elapsed().saturating_sub(watch.beside).as_secs_f64();
+    // What a run has is kept, however it ended.
+    [trajectory, measures].into_iter().flatten().try_for_each(Output::commit)?;
     if let Some(divergence) = finish.divergence {
         anyhow::bail!("after {} s: {divergence}", finish.world.time());
     }
     let (steps, time) = (finish.steps, finish.world.time());
+    let stopped = if finish.stopped { "stopped early, with what there was written; " } else { "" };
     let found = watch.summary() + &finish.lapses.summary(steps);
-    arguments.says(&format!("{}: {steps} steps, {time:.3} s simulated in {spent:.3} s{found}", arguments.scene))?;
+    let name = named(&arguments.scene);
+    arguments.says(&format!("{name}: {stopped}{steps} steps, {time:.3} s simulated in {spent:.3} s{found}"))?;
     if arguments.hash {
         arguments.says(&format!("{:016x}", finish.world.hash()))?;
     }
-    Ok(())
+    Ok(if finish.stopped { stop::code() } else { ExitCode::SUCCESS })
 }

@@ -22,7 +22,7 @@ impl Rows<'_> {
             write!(out, "time,kinetic,potential,elastic,momentum_x,momentum_y,angular_momentum,")?;
             write!(out, "violation_max,penetration_max,contacts,step_us,local_error,")?;
             write!(out, "violation_rms,energy,energy_drift,")?;
-            writeln!(out, "error_rms,error_max,error_rms_percent,error_max_percent,order")?;
+            writeln!(out, "error_rms,error_max,error_rms_percent,error_max_percent,order,growth")?;
         }
         Ok(())
     }
@@ -50,7 +50,7 @@ impl Rows<'_> {
             write!(out, "{:?},{:?},{:?}", m.violation_rms, m.total_energy(), seen.energy_drift)?;
             let (rms, max) = (seen.error.map(|error| error.rms), seen.error.map(|error| error.max));
             let percent = |error: Option<f64>| error.map(|error| 100.0 * error / seen.length);
-            for value in [rms, max, percent(rms), percent(max), seen.order] {
+            for value in [rms, max, percent(rms), percent(max), seen.order, seen.growth] {
                 match value {
                     Some(value) => write!(out, ",{value:?}")?,
                     None => write!(out, ",")?,

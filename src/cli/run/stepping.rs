@@ -1,5 +1,6 @@
 //! The loop of a run: step, look, write.
 
+use super::super::stop;
 use super::rows::Rows;
 use super::watch::Watch;
 use crate::engine::{Divergence, Method, StepReport, Stepper, World};
@@ -26,8 +27,10 @@ pub(super) struct Finish {
     /// The last good state.
     pub world: World,
     pub steps: u64,
-    /// Set if the run ended early.
+    /// Set if the run diverged, which ended it.
     pub divergence: Option<Divergence>,
+    /// Whether the user ended it.
+    pub stopped: bool,
     /// Where an accuracy was wanted and not kept.
     pub lapses: Lapses,
 }
@@ -62,7 +65,7 @@ impl Lapses {
     }
 }
 
-/// Steps `world` for `sampling.seconds` and writes rows on the way. Stops early, rows flushed by the caller, on divergence.
+/// Steps `world` for `sampling.seconds` and writes rows on the way. Stops early on divergence, and when asked to.
 pub(super) fn run(
     mut world: World,
     method: Method,
@@ -79,17 +82,22 @@ pub(super) fn run(
     let mut sample = 1;
     let mut since_row = Sums::default();
     let mut lapses = Lapses::default();
+    let mut steps = 0;
     for step in 1..=last {
+        if stop::asked() {
+            break;
+        }
         let report = stepper.step(&mut world);
         if let Some(divergence) = report.divergence {
-            return Ok(Finish { world, steps: step - 1, divergence: Some(divergence), lapses });
+            return Ok(Finish { world, steps, divergence: Some(divergence), stopped: false, lapses });
         }
         let lapsed = method.automatic && report.substeps > 0;
         if lapsed {
             lapses.add(&report);
         }
         since_row.add(&report, lapsed);
-        watch.step();
+        steps = step;
+        watch.step(&report);
         let seen = watch.look(&world);
         if step >= sampling.step_of(sample, method.hz) {
             rows.write(&world, &seen, since_row.take())?;
@@ -98,7 +106,7 @@ pub(super) fn run(
             }
         }
     }
-    Ok(Finish { world, steps: last, divergence: None, lapses })
+    Ok(Finish { world, steps, divergence: None, stopped: steps < last, lapses })
 }
 
 /// What the steps since the row before tell.

@@ -1,8 +1,9 @@
 //! What is measured of a run while it goes on: energy and its drift, the error against the truth, the order of convergence.
 
-use crate::engine::{DVec2, Integrator, Method, Stepper, World};
-use crate::measure::{Distance, EnergyDrift, ErrorSum, Measures, observed_order};
+use crate::engine::{DVec2, Integrator, Method, StepReport, Stepper, World};
+use crate::measure::{Distance, EnergyDrift, ErrorSum, Growth, Measures, observed_order};
 use crate::truth::Trajectory;
+use std::time::{Duration, Instant};
 
 /// What is measured at one instant.
 pub(super) struct Seen {
@@ -15,6 +16,8 @@ pub(super) struct Seen {
     pub length: f64,
     /// Observed order of convergence of the run so far.
     pub order: Option<f64>,
+    /// By how much the motion has let errors grow so far, where that is known.
+    pub growth: Option<f64>,
 }
 
 /// Measures a run from its start.
@@ -23,20 +26,27 @@ pub(super) struct Watch {
     exact: Option<Trajectory>,
     error: ErrorSum,
     refined: Refined,
+    growth: Option<Growth>,
+    /// Spent on the runs beside it.
+    pub(super) beside: Duration,
 }
 
 impl Watch {
-    /// A run from `world`, whose exact motion may be known and which `refined` repeats.
-    pub(super) fn new(world: &World, exact: Option<Trajectory>, refined: Refined) -> Watch {
+    /// A run from `world`, whose exact motion may be known, which `refined` repeats, and whose sensitivity `growth`
+    /// follows.
+    pub(super) fn new(world: &World, exact: Option<Trajectory>, refined: Refined, growth: Option<Growth>) -> Watch {
         let drift = EnergyDrift::new(&Measures::of(world));
-        Watch { drift, exact, error: ErrorSum::default(), refined }
+        Watch { drift, exact, error: ErrorSum::default(), refined, growth, beside: Duration::ZERO }
     }
 
-    /// Takes a step of the repeated runs.
-    pub(super) fn step(&mut self) {
+    /// Takes a step of the runs beside it, after the run took one that told `report`.
+    pub(super) fn step(&mut self, report: &StepReport) {
+        let begun = Instant::now();
+        self.growth.iter_mut().for_each(|growth| growth.step(report));
         for (world, stepper) in &mut self.refined.runs {
             self.refined.diverged |= stepper.step(world).divergence.is_some();
         }
+        self.beside += begun.elapsed();
     }
 
     /// Measures the run where it is now, once at each of its instants.
@@ -50,6 +60,7 @@ impl Watch {
             error: exact.and_then(|exact| self.error.add(exact, found)),
             length: self.exact.as_ref().map_or(1.0, |exact| exact.length),
             order: self.refined.order(&self.error),
+            growth: self.growth.as_ref().and_then(Growth::factor),
             measures,
         }
     }
@@ -62,6 +73,9 @@ impl Watch {
                 (self.error.rms() / exact.length, self.error.max() / exact.length, self.error.samples(), exact.length);
             text += &format!("; error {rms:.2e} (worst {max:.2e}) of {length} m over {samples} samples of the truth");
             text += &format!(", energy drift {:.1e}", self.drift.relative());
+        }
+        if let Some(sentence) = self.growth.as_ref().and_then(Growth::sentence) {
+            text += &format!("; {sentence}");
         }
         match (self.refined.runs.is_empty(), self.refined.order(&self.error)) {
             (true, _) => {}

@@ -2,7 +2,7 @@
 
 use super::super::error::Fault;
 use super::rope::add_chain;
-use super::{Generate, Layout, Link, check_point, check_range, fresh_group};
+use super::{Generate, Layout, Link, check_point, check_range};
 use crate::engine::{Body, DVec2, Motion, World};
 use serde::{Deserialize, Serialize};
 
@@ -70,8 +70,7 @@ impl Generate for Bridge {
         check_range("sag", self.sag, [0.0, 1e6], "m")
     }
 
-    fn build(&self, world: &mut World) -> Result<(), Fault> {
-        let group = fresh_group(world);
+    fn build(&self, world: &mut World, group: u32) -> Result<(), Fault> {
         let spacing = (self.to - self.from).length() / f64::from(self.links);
         let nodes = (0..=self.links).map(|i| {
             let t = f64::from(i) / f64::from(self.links);

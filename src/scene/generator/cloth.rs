@@ -2,7 +2,7 @@
 
 use super::super::error::Fault;
 use super::grid::Grid;
-use super::{Generate, Layout, Pins, check_point, check_range, fresh_group};
+use super::{Generate, Layout, Pins, check_point, check_range};
 use crate::engine::{Body, DVec2, Kind, World};
 use serde::{Deserialize, Serialize};
 
@@ -68,10 +68,9 @@ impl Generate for Cloth {
         check_range("spacing", self.spacing, [1e-9, 1e6], "m")
     }
 
-    fn build(&self, world: &mut World) -> Result<(), Fault> {
+    fn build(&self, world: &mut World, group: u32) -> Result<(), Fault> {
         let Cloth { corner, columns, rows, spacing, pins, stiffness, damping, .. } = *self;
         let grid = Grid { corner, columns, rows, spacing, chord: None, pins };
-        let group = fresh_group(world);
         let node = Body { mass: self.mass, radius: self.radius, collides: self.collides, group, ..Body::default() };
         let nodes = grid.add_nodes(world, &node)?;
         let thread = |rest| Kind::Spring { rest, stiffness, damping };

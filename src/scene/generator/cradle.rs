@@ -64,7 +64,7 @@ impl Generate for Cradle {
         check_range("length", self.length, [1e-6, 1e6], "m")
     }
 
-    fn build(&self, world: &mut World) -> Result<(), Fault> {
+    fn build(&self, world: &mut World, _: u32) -> Result<(), Fault> {
         let pitch = 2.0 * self.radius + self.gap;
         for i in 0..self.balls {
             let from_middle = f64::from(i) - f64::from(self.balls - 1) / 2.0;

@@ -27,6 +27,7 @@ use super::error::{Fault, SceneError};
 pub use super::names::Layout;
 use crate::engine::{DVec2, Id, World};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// A generator with its parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,8 +50,9 @@ trait Generate {
     fn layout(&self) -> Layout;
     /// Refuses parameters from which nothing sensible can be built.
     fn check(&self) -> Result<(), Fault>;
-    /// Adds its bodies, in the order of its layout, and its constraints.
-    fn build(&self, world: &mut World) -> Result<(), Fault>;
+    /// Adds its bodies, in the order of its layout, and its constraints. `group` is a collision group that no body has
+    /// yet, for bodies that do not touch each other.
+    fn build(&self, world: &mut World, group: u32) -> Result<(), Fault>;
 }
 
 impl Generator {
@@ -86,7 +88,7 @@ impl Generator {
         if self.body_count() > MOST_BODIES {
             return Err(Fault::value("count", self.body_count() as f64, format!("at most {MOST_BODIES} bodies")).into());
         }
-        let built = self.build(world);
+        let built = self.build(world, &mut FreeGroups::default());
         let new = world.bodies().id[first..].to_vec();
         match built {
             Ok(_) => Ok(new),
@@ -97,9 +99,10 @@ impl Generator {
         }
     }
 
-    pub(super) fn build(&self, world: &mut World) -> Result<Layout, Fault> {
+    /// Adds everything to a world whose growth `groups` has followed.
+    pub(super) fn build(&self, world: &mut World, groups: &mut FreeGroups) -> Result<Layout, Fault> {
         self.kind().check()?;
-        self.kind().build(world)?;
+        self.kind().build(world, groups.next(world))?;
         Ok(self.kind().layout())
     }
 }
@@ -121,12 +124,29 @@ pub(super) fn check_point(field: &'static str, point: DVec2) -> Result<(), Fault
     }
 }
 
-/// A collision group that no body has yet: its members do not touch each other.
-fn fresh_group(world: &World) -> u32 {
-    let mut used = world.bodies().group.clone();
-    used.sort_unstable();
-    // There are fewer bodies than numbers, so the count never overflows.
-    used.iter().fold(1, |free, &group| if group == free { free + 1 } else { free })
+/// The collision groups that nobody has in a world which only grows. All calls together take O(bodies log bodies).
+#[derive(Default)]
+pub(super) struct FreeGroups {
+    /// Bodies whose groups are known.
+    seen: usize,
+    /// Groups of those, as far as they are above `taken`.
+    used: BTreeSet<u32>,
+    /// The groups 1 to this one are used.
+    taken: u32,
+}
+
+impl FreeGroups {
+    /// The smallest group from 1 that no body has.
+    fn next(&mut self, world: &World) -> u32 {
+        let groups = &world.bodies().group;
+        self.used.extend(groups[self.seen..].iter().filter(|group| **group > self.taken));
+        self.seen = groups.len();
+        // There are fewer bodies than numbers, so the count never overflows.
+        while self.used.remove(&(self.taken + 1)) {
+            self.taken += 1;
+        }
+        self.taken + 1
+    }
 }
 
 #[cfg(test)]
@@ -137,11 +157,16 @@ mod tests {
     #[test]
     fn a_fresh_group_is_the_smallest_that_nobody_has() {
         let mut world = World::new();
-        assert_eq!(fresh_group(&world), 1);
+        let mut groups = FreeGroups::default();
+        assert_eq!(groups.next(&world), 1);
         for group in [u32::MAX, 0, 1, 2, 4, 2] {
             world.add_body(&Body { group, ..Body::default() }).expect("a sound body");
         }
-        assert_eq!(fresh_group(&world), 3);
+        assert_eq!([groups.next(&world), FreeGroups::default().next(&world)], [3; 2]);
+        for group in [3, 0, 4, 6] {
+            world.add_body(&Body { group, ..Body::default() }).expect("a sound body");
+        }
+        assert_eq!([groups.next(&world), FreeGroups::default().next(&world)], [5; 2]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::super::error::Fault;
 use super::grid::Grid;
-use super::{Generate, Layout, Link, Pins, check_point, check_range, fresh_group};
+use super::{Generate, Layout, Link, Pins, check_point, check_range};
 use crate::engine::{Body, DVec2, World};
 use serde::{Deserialize, Serialize};
 
@@ -73,10 +73,9 @@ impl Generate for Net {
         check_range("chord", chord, [half_circle, links * self.spacing], "m")
     }
 
-    fn build(&self, world: &mut World) -> Result<(), Fault> {
+    fn build(&self, world: &mut World, group: u32) -> Result<(), Fault> {
         let Net { corner, columns, rows, spacing, chord, pins, .. } = *self;
         let grid = Grid { corner, columns, rows, spacing, chord, pins };
-        let group = fresh_group(world);
         let node = Body { mass: self.mass, radius: self.radius, collides: self.collides, group, ..Body::default() };
         let nodes = grid.add_nodes(world, &node)?;
         grid.join(world, &nodes, [1, 0], |length| self.link.over(length))?;

@@ -73,7 +73,7 @@ impl Generate for Pile {
         Err(Fault::new(Some("count"), Problem::new(found, "a rectangle that holds them all", mend)))
     }
 
-    fn build(&self, world: &mut World) -> Result<(), Fault> {
+    fn build(&self, world: &mut World, _: u32) -> Result<(), Fault> {
         let mut random = Random::new(self.seed);
         let cell = 2.0 * self.radius.1;
         // At least the count, which is at most a million: exact as an integer.

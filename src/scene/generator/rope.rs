@@ -1,7 +1,7 @@
 //! A rope: nodes on a straight line, each joined to the next.
 
 use super::super::error::Fault;
-use super::{Generate, Layout, Link, check_point, check_range, fresh_group};
+use super::{Generate, Layout, Link, check_point, check_range};
 use crate::engine::{Body, Constraint, DVec2, Id, Motion, World};
 use serde::{Deserialize, Serialize};
 
@@ -69,8 +69,7 @@ impl Generate for Rope {
         check_range("links", f64::from(self.links), [1.0, 1e6], "")
     }
 
-    fn build(&self, world: &mut World) -> Result<(), Fault> {
-        let group = fresh_group(world);
+    fn build(&self, world: &mut World, group: u32) -> Result<(), Fault> {
         let last = self.links;
         let nodes = (0..=last).map(|i| {
             let pinned = (i == 0 && self.pin_start) || (i == last && self.pin_end);

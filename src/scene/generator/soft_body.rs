@@ -1,7 +1,7 @@
 //! A soft body: a ring of particles and springs that keeps its shape.
 
 use super::super::error::Fault;
-use super::{Generate, Layout, check_point, check_range, fresh_group};
+use super::{Generate, Layout, check_point, check_range};
 use crate::engine::{Body, Constraint, DVec2, Id, Kind, World};
 use serde::{Deserialize, Serialize};
 
@@ -75,8 +75,8 @@ impl Generate for SoftBody {
         check_range("radius", self.radius, [1e-6, 1e6], "m")
     }
 
-    fn build(&self, world: &mut World) -> Result<(), Fault> {
-        let (ring, hub) = self.add_nodes(world)?;
+    fn build(&self, world: &mut World, group: u32) -> Result<(), Fault> {
+        let (ring, hub) = self.add_nodes(world, group)?;
         let count = self.nodes as usize;
         let across = 0.25 * self.stiffness;
         self.join(world, &ring, 1, count, self.stiffness)?;
@@ -95,7 +95,7 @@ impl Generate for SoftBody {
 type Node = (Id, DVec2);
 
 impl SoftBody {
-    fn add_nodes(&self, world: &mut World) -> Result<(Vec<Node>, Option<Node>), Fault> {
+    fn add_nodes(&self, world: &mut World, group: u32) -> Result<(Vec<Node>, Option<Node>), Fault> {
         let turn = std::f64::consts::TAU / f64::from(self.nodes);
         let spacing = 2.0 * self.radius * libm::sin(turn / 2.0);
         let node = Body {
@@ -103,7 +103,7 @@ impl SoftBody {
             mass: self.mass / self.layout_len(),
             radius: self.node_radius.unwrap_or(0.6 * spacing),
             friction: self.friction,
-            group: fresh_group(world),
+            group,
             ..Body::default()
         };
         let mut add = |position: DVec2| world.add_body(&Body { position, ..node }).map(|id| (id, position));

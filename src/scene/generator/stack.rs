@@ -55,7 +55,7 @@ impl Generate for Stack {
         check_range("count", f64::from(self.count), [1.0, 1e6], "")
     }
 
-    fn build(&self, world: &mut World) -> Result<(), Fault> {
+    fn build(&self, world: &mut World, _: u32) -> Result<(), Fault> {
         for i in 0..self.count {
             world.add_body(&Body {
                 position: self.base + DVec2::new(0.0, self.radius * (1.0 + 2.0 * f64::from(i))),

@@ -100,6 +100,9 @@ impl ClosedForm {
         let mut positions = Vec::with_capacity(times.len());
         for &time in &times {
             let sample = motion.at(time);
+            if !sample.iter().all(|position| position.is_finite()) {
+                return Err(self.misfit("numbers so far apart that its formula cannot be calculated".to_owned()));
+            }
             watch.look(time, &sample).map_err(|what| self.misfit(what))?;
             positions.push(sample);
         }
