@@ -1,7 +1,7 @@
 //! A step, stage by stage: forces, prediction, detection, assembly, solve, update.
 
-use super::collide::sweep::{drift, keep_out_of_walls};
-use super::collide::{BroadPhase, find_contacts};
+use super::collide::sweep::drift;
+use super::collide::{BroadPhase, WallGuard, find_contacts};
 use super::constraint::grip::lead_static;
 use super::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use super::integrate::{self, Forces, Scene, add_spring_forces};
@@ -44,7 +44,8 @@ pub struct Stepper {
     /// Multipliers by constraint, and the grip's [N].
     force: Vec<DVec2>,
     grip_force: DVec2,
-    /// Positions from which no wall may lie on the way to the end of the substep.
+    guard: WallGuard,
+    /// Positions before overlaps are parted.
     start: Vec<DVec2>,
     /// Positions and angles that the contacts' gaps belong to.
     planes_at: (Vec<DVec2>, Vec<f64>),
@@ -80,6 +81,7 @@ impl Stepper {
             self.plan.derive(world, &self.method);
             self.islands.build(world, &self.plan);
             self.broad.reset();
+            self.guard.reset();
         }
         &self.plan
     }
@@ -152,9 +154,6 @@ impl Stepper {
         if solver == Solver::Projection {
             self.projection.remember::<SPIN>(&self.plan.joints, &self.state);
         }
-        if self.plan.contacts && !early {
-            self.start.clone_from(&self.state.position);
-        }
         let scene = Scene { world, plan: &self.plan, h };
         if integrate::evaluates_first(integrator) {
             self.forces.evaluate(&scene, &self.state);
@@ -205,7 +204,6 @@ impl Stepper {
         self.pgs.assemble_contacts::<SPIN>(world, &self.contacts, &self.state);
         self.start.clone_from(&self.state.position);
         Planes::part_overlaps(&mut self.pgs.contacts, &self.start, &mut self.state, self.method.baumgarte);
-        self.start.clone_from(&self.state.position);
         if self.plan.restitution {
             let (integrator, solver) = (self.plan.integrator, self.method.solver);
             let only_short_shifts = solver == Solver::Pgs && integrate::drifts_first(integrator);
@@ -267,10 +265,10 @@ impl Stepper {
         laps.end(Stage::Solve);
     }
 
-    /// The last resort against tunnelling, along the whole way since detection.
+    /// The last resort against tunnelling, along the whole way since the last time.
     fn keep_out_of_walls(&mut self, world: &World) {
         if self.plan.contacts && !world.walls.is_empty() {
-            keep_out_of_walls(world, &mut self.state, &self.start);
+            self.guard.hold(world, &mut self.state);
         }
     }
 
@@ -300,7 +298,9 @@ impl Stepper {
         self.contacts.clone_from(&world.contacts);
         self.force.clone_from(&world.constraints.force);
         self.grip_force = world.grip.map_or(DVec2::ZERO, |grip| grip.force);
-        if !self.plan.contacts {
+        if self.plan.contacts {
+            self.guard.begin(&self.state);
+        } else {
             self.contacts.clear();
             self.pgs.contacts.clear();
         }

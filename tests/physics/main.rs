@@ -1,6 +1,7 @@
 //! Physics against closed forms, which the tests compute themselves. Every figure is printed; run with `--nocapture` to read.
 
 mod chains;
+mod closed_boxes;
 mod few;
 mod figures;
 mod free_motion;

@@ -1,7 +1,7 @@
 //! Carries all islands of a plan through a step.
 
 use super::System;
-use super::near::Surroundings;
+use super::near::{Surroundings, came_to_wall};
 use crate::engine::Integrator;
 use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
@@ -82,6 +82,11 @@ impl Islands {
                 && system.turning.within(LARGEST_COORDINATE * LARGEST_SPEED);
             if outcome.failed || !within {
                 self.given_up.push(index);
+                continue;
+            }
+            if self.islands[index].0.guarded && came_to_wall(world, system) {
+                self.given_up.push(index);
+                report.near += 1;
                 continue;
             }
             if system.nodes.len() > largest {
