@@ -51,6 +51,8 @@ pub struct Plan {
     pub restitution: bool,
     /// Some spring that is a force has a damper, so forces depend on velocities.
     pub dashpots: bool,
+    /// Some joint for the solver has an end off the centre of a body that turns.
+    pub(crate) arms: bool,
     /// Springs that the integrator resolves.
     pub(crate) springs: Vec<Joint>,
     /// Constraints for the solver.
@@ -248,8 +250,8 @@ impl Plan {
             })
             .collect();
         for joint in all.iter().filter(|joint| joint.form.stiffness.is_finite()) {
-            for end in [joint.a as usize, joint.b as usize] {
-                let w = bodies.inverse_mass.get(end).copied().unwrap_or(0.0) * self.leverage(world, end);
+            for (end, at) in [(joint.a as usize, joint.at_a), (joint.b as usize, joint.at_b)] {
+                let w = bodies.inverse_mass.get(end).copied().unwrap_or(0.0) * self.leverage(world, end, at);
                 load[end].0 += w * joint.form.stiffness;
                 load[end].1 += w * joint.form.damping;
             }
@@ -262,12 +264,19 @@ impl Plan {
         self.springs = all.iter().filter(|joint| resolved(joint) && acts(joint)).copied().collect();
         self.joints = all.iter().filter(|joint| !resolved(joint) && can_act(joint, world)).copied().collect();
         self.rows = self.joints.iter().map(|joint| joint.form.rows()).sum();
+        let turns = |end: u32, at: DVec2| (end as usize) < bodies.len() && at != DVec2::ZERO;
+        self.arms = self.joints.iter().any(|joint| turns(joint.a, joint.at_a) || turns(joint.b, joint.at_b));
         self.dashpots = self.springs.iter().any(|joint| joint.form.damping > 0.0);
     }
 
-    /// Factor by which an anchor at the rim of a disc is easier to move than its centre: 1 + m r²/I = 3.
-    fn leverage(&self, world: &World, body: usize) -> f64 {
-        if body < world.bodies.len() && world.bodies.spin(body).is_some() { 3.0 } else { 1.0 }
+    /// Factor by which an anchor of a disc is easier to move than its centre: 1 + m |at|²/I with I = ½ m r², and at least that of an anchor at the rim.
+    fn leverage(&self, world: &World, body: usize, at: DVec2) -> f64 {
+        if body < world.bodies.len() && world.bodies.spin(body).is_some() {
+            let arm = at.length() / world.bodies.radius[body];
+            1.0 + 2.0 * (arm * arm).max(1.0)
+        } else {
+            1.0
+        }
     }
 
     fn find_contacts(&mut self, world: &World) {
@@ -361,7 +370,8 @@ impl Plan {
         let stiff = self.joints.iter().filter(|joint| joint.form.stiffness.is_finite()).count();
         if stiff > 0 {
             let as_rows = if stiff == 1 { "a row" } else { "rows" };
-            parts.push(format!("{} as {as_rows} (too stiff for the substep)", plural(stiff, "spring")));
+            let dies = if stiff == 1 { "its vibration dies away" } else { "their vibration dies away" };
+            parts.push(format!("{} as {as_rows} (too stiff for the substep: {dies})", plural(stiff, "spring")));
         }
         if !self.springs.is_empty() {
             let as_forces = if self.springs.len() == 1 { "a force" } else { "forces" };

@@ -8,6 +8,7 @@ use super::integrate::{self, Forces, Scene, add_spring_forces};
 use super::island::Islands;
 use super::plan::Plan;
 use super::report::{Divergence, Stage, StepReport};
+use super::solve::arms::Arms;
 use super::solve::feedback::feed_back;
 use super::solve::impact::Impacts;
 use super::solve::overlap::Planes;
@@ -18,6 +19,9 @@ use super::world::Contact;
 use super::{EngineError, Integrator, Method, Solver, World};
 use glam::DVec2;
 use std::mem::swap;
+
+/// Arms of a joint longer than so many radii of the disc are named as what made a run diverge.
+const OUTSIDE: f64 = 3.0;
 
 /// Carries out a plan, step after step, with its own scratch memory: a warm step allocates nothing.
 ///
@@ -41,6 +45,7 @@ pub struct Stepper {
     islands: Islands,
     pgs: Pgs,
     projection: Projection,
+    arms: Arms,
     /// Multipliers by constraint, and the grip's [N].
     force: Vec<DVec2>,
     grip_force: DVec2,
@@ -140,6 +145,7 @@ impl Stepper {
         let h = self.method.substep_seconds();
         let (integrator, solver) = (self.plan.integrator, self.method.solver);
         lead_static(world, &mut self.state, h);
+        self.arms.steady(&self.plan.joints, &self.force, h, &mut self.state);
         // A projection acts on predicted positions, so its contacts are found before anything moves.
         let early = solver == Solver::Projection && integrate::drifts_first(integrator);
         if early {
@@ -211,7 +217,7 @@ impl Stepper {
                 &mut self.pgs.contacts,
                 &self.contacts,
                 &mut self.state,
-                (h, world.gravity.length()),
+                (h, world.gravity),
                 only_short_shifts,
             );
         }
@@ -237,7 +243,9 @@ impl Stepper {
         report.residual = self.pgs.residual;
         laps.end(Stage::Solve);
         drift(&mut self.state, remaining);
+        self.arms.exchange(&mut self.state);
         feed_back::<SPIN>(&self.plan.joints, self.method.baumgarte, &mut self.state);
+        self.arms.exchange(&mut self.state);
         self.keep_out_of_walls(world);
         laps.end(Stage::Update);
     }
@@ -295,6 +303,7 @@ impl Stepper {
 
     fn load(&mut self, world: &World) {
         self.state.load(world, self.plan.spin, &self.plan.in_island);
+        self.arms.read(&self.plan.joints, self.plan.arms, &self.state);
         self.contacts.clone_from(&world.contacts);
         self.force.clone_from(&world.constraints.force);
         self.grip_force = world.grip.map_or(DVec2::ZERO, |grip| grip.force);
@@ -350,7 +359,14 @@ impl Stepper {
     fn advice(&self, world: &World) -> String {
         let masses = || world.bodies.mass.iter().zip(&world.bodies.inverse_mass).filter(|(_, w)| **w > 0.0);
         let (light, heavy) = masses().fold((f64::INFINITY, 0.0f64), |(l, h), (m, _)| (l.min(*m), h.max(*m)));
-        if self.method.integrator == Integrator::ExplicitEuler {
+        let (outside, body) = self.longest_arm(world);
+        if outside > OUTSIDE {
+            format!(
+                "A joint of body {} is {outside:.0} of its radii from its centre, so the least force turns it fast: \
+                 try more substeps, an accuracy, a larger disc, or anchors within it.",
+                world.bodies.id[body]
+            )
+        } else if self.method.integrator == Integrator::ExplicitEuler {
             "Explicit Euler gains energy at every step: try semi-implicit Euler or velocity Verlet.".to_string()
         } else if heavy > 100.0 * light && self.plan.rows > 0 {
             format!(
@@ -360,6 +376,17 @@ impl Stepper {
         } else {
             "The step is too large for what moves here: try more substeps or a higher rate.".to_string()
         }
+    }
+
+    /// The longest arm of a joint in radii of its disc, and whose it is.
+    fn longest_arm(&self, world: &World) -> (f64, usize) {
+        let ends = self.plan.joints.iter().flat_map(|joint| [(joint.a, joint.at_a), (joint.b, joint.at_b)]);
+        let arms = ends.filter_map(|(body, at)| {
+            let radius =
+                world.bodies.radius.get(body as usize).filter(|_| world.bodies.inverse_mass[body as usize] > 0.0)?;
+            Some((at.length() / radius, body as usize)).filter(|_| at != DVec2::ZERO)
+        });
+        arms.fold((0.0, 0), |longest, arm| if arm.0 > longest.0 { arm } else { longest })
     }
 
     fn fill_report(&self, world: &World, laps: &Laps, report: &mut StepReport) {
