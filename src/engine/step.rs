@@ -100,6 +100,7 @@ impl Stepper {
         let falls_back = !self.islands.given_up().is_empty();
         if falls_back {
             self.fallback.leave_out(world, &self.method, self.islands.given_up());
+            self.islands.mark_carried(&mut self.fallback.in_island);
             swap(&mut self.plan, &mut self.fallback);
         }
         if self.given_up != self.islands.given_up() {
@@ -328,7 +329,7 @@ impl Stepper {
             world.contacts.clear();
         }
         world.constraints.carried.fill(false);
-        self.islands.store(world, &self.plan, self.method.step_seconds());
+        self.islands.store(world, self.method.step_seconds());
         world.advance_clock(self.method.hz);
     }
 

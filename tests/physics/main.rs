@@ -2,6 +2,7 @@
 
 mod chains;
 mod closed_boxes;
+mod clusters;
 mod few;
 mod figures;
 mod free_motion;

@@ -12,6 +12,9 @@ use glam::DVec2;
 /// tangent leads away from where it should.
 const MOST_TURN: f64 = 0.5;
 
+/// Way along the tangent in radii up to which a soft joint follows a chord.
+const LONGEST_CHORD: f64 = 0.9;
+
 /// What C measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Measure {
@@ -196,9 +199,11 @@ impl Joint {
 }
 
 /// Twice the slope of the chord that starts along the tangent by `turned` radii and ends on the circle: 2 (1 − √(1 − x²))/x, which is x for small x.
+///
+/// Where ends pass each other closely there is no such chord, nor any sense in one: it fades, as the same slope in every substep would feed the motion.
 fn chord(turned: f64) -> f64 {
-    // Beyond it there is none.
-    let x = turned.min(0.9);
+    let x = turned.min(LONGEST_CHORD);
+    let fade = if turned > x { x / turned } else { 1.0 };
     // In the form that does not cancel.
-    2.0 * x / (1.0 + (1.0 - x * x).sqrt())
+    2.0 * x / (1.0 + (1.0 - x * x).sqrt()) * fade * fade
 }
