@@ -6,6 +6,7 @@ use super::constraint::Kind;
 use super::constraint::WORLD;
 use super::constraint::form::{Form, Joint};
 use super::id::Id;
+use super::impact::MOST_TOGETHER;
 use super::island::partition::{Group, partition};
 use super::state::State;
 use super::world::Revision;
@@ -29,10 +30,8 @@ const SECOND_ORDER: f64 = 6e-4;
 const ORDER_4: f64 = 1e-5;
 const FINEST_NYSTROM: f64 = 1e-11;
 
-/// Free bodies, static ones that they can touch among them, that are few enough to be carried from event to event: their cost a step
-/// grows with the square, and with the walls.
-const FEW: usize = 128;
-const FEW_WALLS: usize = 512;
+/// Walls with which free bodies are carried from event to event: each is looked at for each body.
+const MOST_WALLS: usize = 512;
 
 /// Loosest accuracy of methods of higher order. Steps of low order gain energy in swings that they hardly resolve, as those of light links
 /// under a heavy load; and it costs little more.
@@ -51,6 +50,8 @@ pub struct Plan {
     pub restitution: bool,
     /// Some spring that is a force has a damper, so forces depend on velocities.
     pub dashpots: bool,
+    /// Some joint for the solver has an end off the centre of a body that turns.
+    pub(crate) arms: bool,
     /// Springs that the integrator resolves.
     pub(crate) springs: Vec<Joint>,
     /// Constraints for the solver.
@@ -97,23 +98,13 @@ pub(crate) struct IslandPlan {
     pub steps: Option<u32>,
 }
 
-/// Free bodies that can touch walls and each other, and nothing else that moves.
-#[derive(Clone, Debug, PartialEq)]
+/// Free bodies that can touch walls and each other.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct FewPlan {
-    /// Dense indices, ascending; static ones in their way included.
+    /// Dense indices, ascending.
     pub bodies: Vec<u32>,
-    /// How many of them are not static.
-    pub free: usize,
     /// Error allowed in a step where motion is not in closed form, in parts of the smallest radius.
     pub tolerance: f64,
-}
-
-impl FewPlan {
-    /// Whether the mouse holds one of them.
-    pub fn is_held(&self, world: &World) -> bool {
-        let held = world.grip.and_then(|grip| world.bodies.index_of(grip.body));
-        held.is_some_and(|index| self.bodies.binary_search(&(index as u32)).is_ok())
-    }
 }
 
 impl Plan {
@@ -165,9 +156,7 @@ impl Plan {
         let mut groups = partition(world);
         let few = groups.pop_if(|group| method.automatic && self.is_few(world, group));
         let smooth: Vec<Group> = groups.into_iter().filter(|group| self.smooth(world, group)).collect();
-        if let Some(free) = few.filter(|_| self.without.binary_search(&smooth.len()).is_err()) {
-            self.carry_few(world, method, free);
-        }
+        let few = few.filter(|_| self.without.binary_search(&smooth.len()).is_err());
         for (index, group) in smooth.into_iter().enumerate() {
             if self.without.binary_search(&index).is_err() {
                 group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
@@ -176,32 +165,30 @@ impl Plan {
                 self.islands.push(IslandPlan { guarded, ..IslandPlan::of(world, method, group, turning) });
             }
         }
+        if let Some(free) = few {
+            self.carry_few(world, method, free);
+        }
         let bodies = &world.bodies;
         self.rest = (0..bodies.len()).any(|i| !self.in_island[i] && bodies.motion[i] != Motion::Static);
     }
 
-    /// Whether a group is of free bodies that can touch, few enough, and nothing else that moves can touch.
+    /// Whether a group is of free bodies that can touch.
     fn is_few(&self, world: &World, group: &Group) -> bool {
-        let bodies = 0..world.bodies.len() as u32;
-        let others = |body: &u32| group.bodies.binary_search(body).is_err() && self.touches(world, *body);
-        let is_static = |body: u32| world.bodies.motion[body as usize] == Motion::Static;
         group.constraints.is_empty()
             && group.bodies.iter().any(|body| self.touches(world, *body))
-            && bodies.clone().filter(others).all(is_static)
-            && group.bodies.len() + bodies.filter(others).count() <= FEW
-            && world.walls.len() <= FEW_WALLS
+            && world.walls.len() <= MOST_WALLS
     }
 
     /// Gives free bodies to the stage that carries them from event to event.
     fn carry_few(&mut self, world: &World, method: &Method, group: Group) {
-        let free = group.bodies.len();
         group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
-        let carried = |body: &u32| self.in_island[*body as usize] || self.touches(world, *body);
-        let bodies = (0..world.bodies.len() as u32).filter(carried).collect();
         let tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
-        self.few = Some(FewPlan { bodies, free, tolerance });
-        // Nothing else can touch.
-        (self.contacts, self.restitution) = (false, false);
+        self.few = Some(FewPlan { bodies: group.bodies, tolerance });
+        // Whether anything that is left can be pushed by what it touches.
+        let left = |body: u32| !self.in_island[body as usize] && world.bodies.inverse_mass[body as usize] > 0.0;
+        let contacts = (0..world.bodies.len() as u32).any(|body| left(body) && self.touches(world, body));
+        self.restitution &= contacts;
+        self.contacts = contacts;
     }
 
     /// Whether a body can touch anything.
@@ -248,8 +235,8 @@ impl Plan {
             })
             .collect();
         for joint in all.iter().filter(|joint| joint.form.stiffness.is_finite()) {
-            for end in [joint.a as usize, joint.b as usize] {
-                let w = bodies.inverse_mass.get(end).copied().unwrap_or(0.0) * self.leverage(world, end);
+            for (end, at) in [(joint.a as usize, joint.at_a), (joint.b as usize, joint.at_b)] {
+                let w = bodies.inverse_mass.get(end).copied().unwrap_or(0.0) * self.leverage(world, end, at);
                 load[end].0 += w * joint.form.stiffness;
                 load[end].1 += w * joint.form.damping;
             }
@@ -262,12 +249,19 @@ impl Plan {
         self.springs = all.iter().filter(|joint| resolved(joint) && acts(joint)).copied().collect();
         self.joints = all.iter().filter(|joint| !resolved(joint) && can_act(joint, world)).copied().collect();
         self.rows = self.joints.iter().map(|joint| joint.form.rows()).sum();
+        let turns = |end: u32, at: DVec2| (end as usize) < bodies.len() && at != DVec2::ZERO;
+        self.arms = self.joints.iter().any(|joint| turns(joint.a, joint.at_a) || turns(joint.b, joint.at_b));
         self.dashpots = self.springs.iter().any(|joint| joint.form.damping > 0.0);
     }
 
-    /// Factor by which an anchor at the rim of a disc is easier to move than its centre: 1 + m r²/I = 3.
-    fn leverage(&self, world: &World, body: usize) -> f64 {
-        if body < world.bodies.len() && world.bodies.spin(body).is_some() { 3.0 } else { 1.0 }
+    /// Factor by which an anchor of a disc is easier to move than its centre: 1 + m |at|²/I with I = ½ m r², and at least that of an anchor at the rim.
+    fn leverage(&self, world: &World, body: usize, at: DVec2) -> f64 {
+        if body < world.bodies.len() && world.bodies.spin(body).is_some() {
+            let arm = at.length() / world.bodies.radius[body];
+            1.0 + 2.0 * (arm * arm).max(1.0)
+        } else {
+            1.0
+        }
     }
 
     fn find_contacts(&mut self, world: &World) {
@@ -348,6 +342,24 @@ impl Plan {
         text
     }
 
+    /// How free bodies are carried, and which of them not.
+    fn describe_few(&self, world: &World, few: &FewPlan, sentence: &mut String) {
+        let free = few.bodies.len();
+        let bodies = if free == 1 { "1 free body".to_string() } else { format!("{free} free bodies") };
+        let _ = write!(sentence, "; {bodies} from impact to impact in closed form, contact forces solved directly");
+        let moves_otherwise = |body: u32| {
+            let i = body as usize;
+            let others = few.bodies.binary_search(&body).is_err() && world.bodies.motion[i] != Motion::Static;
+            others && world.bodies.collides[i] && world.bodies.radius[i] > 0.0
+        };
+        if free > MOST_TOGETHER {
+            let _ = write!(sentence, ", heaps of more than {MOST_TOGETHER} through the substeps");
+        }
+        if (0..world.bodies.len() as u32).any(moves_otherwise) {
+            sentence.push_str(", those near what moves otherwise through the substeps");
+        }
+    }
+
     fn describe(&self, world: &World, method: &Method) -> String {
         let mut parts = Vec::new();
         let counts = [
@@ -361,7 +373,8 @@ impl Plan {
         let stiff = self.joints.iter().filter(|joint| joint.form.stiffness.is_finite()).count();
         if stiff > 0 {
             let as_rows = if stiff == 1 { "a row" } else { "rows" };
-            parts.push(format!("{} as {as_rows} (too stiff for the substep)", plural(stiff, "spring")));
+            let dies = if stiff == 1 { "its vibration dies away" } else { "their vibration dies away" };
+            parts.push(format!("{} as {as_rows} (too stiff for the substep: {dies})", plural(stiff, "spring")));
         }
         if !self.springs.is_empty() {
             let as_forces = if self.springs.len() == 1 { "a force" } else { "forces" };
@@ -376,8 +389,7 @@ impl Plan {
             self.describe_islands(&mut sentence, method);
         }
         if let Some(few) = &self.few {
-            let bodies = if few.free == 1 { "1 free body".to_string() } else { format!("{} free bodies", few.free) };
-            let _ = write!(sentence, "; {bodies} from impact to impact in closed form, contact forces solved directly");
+            self.describe_few(world, few, &mut sentence);
         }
         if (method.automatic || method.integrator.is_direct()) && self.rest {
             let bodies = (0..world.bodies.len()).filter(|i| !self.in_island[*i] && world.bodies.inverse_mass[*i] > 0.0);

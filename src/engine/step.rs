@@ -1,13 +1,14 @@
 //! A step, stage by stage: forces, prediction, detection, assembly, solve, update.
 
-use super::collide::sweep::{drift, keep_out_of_walls};
-use super::collide::{BroadPhase, find_contacts};
+use super::collide::sweep::drift;
+use super::collide::{BroadPhase, WallGuard, find_contacts};
 use super::constraint::grip::lead_static;
 use super::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use super::integrate::{self, Forces, Scene, add_spring_forces};
 use super::island::Islands;
 use super::plan::Plan;
 use super::report::{Divergence, Stage, StepReport};
+use super::solve::arms::Arms;
 use super::solve::feedback::feed_back;
 use super::solve::impact::Impacts;
 use super::solve::overlap::Planes;
@@ -18,6 +19,9 @@ use super::world::Contact;
 use super::{EngineError, Integrator, Method, Solver, World};
 use glam::DVec2;
 use std::mem::swap;
+
+/// Arms of a joint longer than so many radii of the disc are named as what made a run diverge.
+const OUTSIDE: f64 = 3.0;
 
 /// Carries out a plan, step after step, with its own scratch memory: a warm step allocates nothing.
 ///
@@ -41,10 +45,12 @@ pub struct Stepper {
     islands: Islands,
     pgs: Pgs,
     projection: Projection,
+    arms: Arms,
     /// Multipliers by constraint, and the grip's [N].
     force: Vec<DVec2>,
     grip_force: DVec2,
-    /// Positions from which no wall may lie on the way to the end of the substep.
+    guard: WallGuard,
+    /// Positions before overlaps are parted.
     start: Vec<DVec2>,
     /// Positions and angles that the contacts' gaps belong to.
     planes_at: (Vec<DVec2>, Vec<f64>),
@@ -80,6 +86,7 @@ impl Stepper {
             self.plan.derive(world, &self.method);
             self.islands.build(world, &self.plan);
             self.broad.reset();
+            self.guard.reset();
         }
         &self.plan
     }
@@ -93,6 +100,7 @@ impl Stepper {
         let falls_back = !self.islands.given_up().is_empty();
         if falls_back {
             self.fallback.leave_out(world, &self.method, self.islands.given_up());
+            self.islands.mark_carried(&mut self.fallback.in_island);
             swap(&mut self.plan, &mut self.fallback);
         }
         if self.given_up != self.islands.given_up() {
@@ -138,6 +146,7 @@ impl Stepper {
         let h = self.method.substep_seconds();
         let (integrator, solver) = (self.plan.integrator, self.method.solver);
         lead_static(world, &mut self.state, h);
+        self.arms.steady(&self.plan.joints, &self.force, h, &mut self.state);
         // A projection acts on predicted positions, so its contacts are found before anything moves.
         let early = solver == Solver::Projection && integrate::drifts_first(integrator);
         if early {
@@ -151,9 +160,6 @@ impl Stepper {
         }
         if solver == Solver::Projection {
             self.projection.remember::<SPIN>(&self.plan.joints, &self.state);
-        }
-        if self.plan.contacts && !early {
-            self.start.clone_from(&self.state.position);
         }
         let scene = Scene { world, plan: &self.plan, h };
         if integrate::evaluates_first(integrator) {
@@ -205,7 +211,6 @@ impl Stepper {
         self.pgs.assemble_contacts::<SPIN>(world, &self.contacts, &self.state);
         self.start.clone_from(&self.state.position);
         Planes::part_overlaps(&mut self.pgs.contacts, &self.start, &mut self.state, self.method.baumgarte);
-        self.start.clone_from(&self.state.position);
         if self.plan.restitution {
             let (integrator, solver) = (self.plan.integrator, self.method.solver);
             let only_short_shifts = solver == Solver::Pgs && integrate::drifts_first(integrator);
@@ -213,7 +218,7 @@ impl Stepper {
                 &mut self.pgs.contacts,
                 &self.contacts,
                 &mut self.state,
-                (h, world.gravity.length()),
+                (h, world.gravity),
                 only_short_shifts,
             );
         }
@@ -239,7 +244,9 @@ impl Stepper {
         report.residual = self.pgs.residual;
         laps.end(Stage::Solve);
         drift(&mut self.state, remaining);
+        self.arms.exchange(&mut self.state);
         feed_back::<SPIN>(&self.plan.joints, self.method.baumgarte, &mut self.state);
+        self.arms.exchange(&mut self.state);
         self.keep_out_of_walls(world);
         laps.end(Stage::Update);
     }
@@ -267,10 +274,10 @@ impl Stepper {
         laps.end(Stage::Solve);
     }
 
-    /// The last resort against tunnelling, along the whole way since detection.
+    /// The last resort against tunnelling, along the whole way since the last time.
     fn keep_out_of_walls(&mut self, world: &World) {
         if self.plan.contacts && !world.walls.is_empty() {
-            keep_out_of_walls(world, &mut self.state, &self.start);
+            self.guard.hold(world, &mut self.state);
         }
     }
 
@@ -297,10 +304,13 @@ impl Stepper {
 
     fn load(&mut self, world: &World) {
         self.state.load(world, self.plan.spin, &self.plan.in_island);
+        self.arms.read(&self.plan.joints, self.plan.arms, &self.state);
         self.contacts.clone_from(&world.contacts);
         self.force.clone_from(&world.constraints.force);
         self.grip_force = world.grip.map_or(DVec2::ZERO, |grip| grip.force);
-        if !self.plan.contacts {
+        if self.plan.contacts {
+            self.guard.begin(&self.state);
+        } else {
             self.contacts.clear();
             self.pgs.contacts.clear();
         }
@@ -319,7 +329,7 @@ impl Stepper {
             world.contacts.clear();
         }
         world.constraints.carried.fill(false);
-        self.islands.store(world, &self.plan, self.method.step_seconds());
+        self.islands.store(world, self.method.step_seconds());
         world.advance_clock(self.method.hz);
     }
 
@@ -350,7 +360,14 @@ impl Stepper {
     fn advice(&self, world: &World) -> String {
         let masses = || world.bodies.mass.iter().zip(&world.bodies.inverse_mass).filter(|(_, w)| **w > 0.0);
         let (light, heavy) = masses().fold((f64::INFINITY, 0.0f64), |(l, h), (m, _)| (l.min(*m), h.max(*m)));
-        if self.method.integrator == Integrator::ExplicitEuler {
+        let (outside, body) = self.longest_arm(world);
+        if outside > OUTSIDE {
+            format!(
+                "A joint of body {} is {outside:.0} of its radii from its centre, so the least force turns it fast: \
+                 try more substeps, an accuracy, a larger disc, or anchors within it.",
+                world.bodies.id[body]
+            )
+        } else if self.method.integrator == Integrator::ExplicitEuler {
             "Explicit Euler gains energy at every step: try semi-implicit Euler or velocity Verlet.".to_string()
         } else if heavy > 100.0 * light && self.plan.rows > 0 {
             format!(
@@ -360,6 +377,17 @@ impl Stepper {
         } else {
             "The step is too large for what moves here: try more substeps or a higher rate.".to_string()
         }
+    }
+
+    /// The longest arm of a joint in radii of its disc, and whose it is.
+    fn longest_arm(&self, world: &World) -> (f64, usize) {
+        let ends = self.plan.joints.iter().flat_map(|joint| [(joint.a, joint.at_a), (joint.b, joint.at_b)]);
+        let arms = ends.filter_map(|(body, at)| {
+            let radius =
+                world.bodies.radius.get(body as usize).filter(|_| world.bodies.inverse_mass[body as usize] > 0.0)?;
+            Some((at.length() / radius, body as usize)).filter(|_| at != DVec2::ZERO)
+        });
+        arms.fold((0.0, 0), |longest, arm| if arm.0 > longest.0 { arm } else { longest })
     }
 
     fn fill_report(&self, world: &World, laps: &Laps, report: &mut StepReport) {

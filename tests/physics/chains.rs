@@ -2,7 +2,7 @@
 
 use super::figures::Figures;
 use super::lab::*;
-use tautline::engine::{Anchor, Body, Constraint, DVec2, Id, Kind, Solver, Spin, World};
+use tautline::engine::{Anchor, Body, Constraint, DVec2, Id, Integrator, Kind, Method, Solver, Spin, World};
 
 /// A chain of `links` rods from the origin along `direction`, `length` [m] and `mass` [kg] each.
 fn chain(links: u32, direction: DVec2, length: f64, mass: f64) -> World {
@@ -111,5 +111,89 @@ fn a_pin_holds_two_discs_together_off_their_centres() {
         // Equal and opposite forces at points 1e-5 m apart: what that makes of a torque, and the half of a drift between
         // the points of the force and of the velocities, is first order.
         figures.near(&format!("{name}, angular momentum"), turning(&world), turned, 0.01 * turned.abs());
+    }
+}
+
+/// Two discs in a row, each pinned to the one before it (the first to the origin) by arms far outside of them; the last one starts across them.
+fn pinned_outside(radius: f64, arm: f64, speed: f64, direction: DVec2) -> World {
+    let mut world = weightless();
+    let disc = |place: f64, velocity: DVec2| {
+        let spin = Some(Spin { angle: direction.to_angle(), omega: 0.0 });
+        Body { radius, spin, collides: false, ..ball(place * direction, velocity) }
+    };
+    let first = world.add_body(&disc(arm, DVec2::ZERO)).unwrap();
+    let second = world.add_body(&disc(3.0 * arm, speed * direction.perp())).unwrap();
+    let (back, ahead) = (v(-arm, 0.0), v(arm, 0.0));
+    let pin = |a: Anchor, b: Anchor| Constraint { kind: Kind::Pin, a, b };
+    world.add_constraint(&pin(Anchor::World(DVec2::ZERO), Anchor::Body(first, back))).unwrap();
+    world.add_constraint(&pin(Anchor::Body(first, ahead), Anchor::Body(second, back))).unwrap();
+    world
+}
+
+#[test]
+fn light_discs_pinned_far_outside_themselves_keep_their_energy() {
+    let mut figures = Figures::default();
+    for (radius, arm, speed, turn) in
+        [(0.005, 0.5, 3.0, 0.0), (0.005, 0.5, -3.0, 0.0), (0.01, 0.5, 2.0, 1.1), (0.02, 0.3, 1.0, 4.0)]
+    {
+        let direction = DVec2::from_angle(turn);
+        for (method, gain, gap) in [
+            // A hundredth of what a substep cannot follow.
+            (Method::default(), 0.01, 0.02),
+            (rate(60.0, 16, 10), 0.005, 1e-3),
+            (Method { integrator: Integrator::VelocityVerlet, ..Method::default() }, 0.01, 0.02),
+            (Method { automatic: true, accuracy: 1e-6, ..Method::default() }, 1e-4, 1e-9),
+        ] {
+            let mut world = pinned_outside(radius, arm, speed, direction);
+            let start = kinetic_energy(&world);
+            let (mut most, mut apart) = (0.0f64, 0.0f64);
+            watch(&mut world, method, 10.0, |world, _| {
+                most = most.max(kinetic_energy(world) / start);
+                for pin in 0..2 {
+                    let (a, b) = world.ends(pin);
+                    apart = apart.max(a.distance(b));
+                }
+            });
+            let name = format!(
+                "radius {radius}, arm {arm}, {} × {}, automatic {}",
+                label(&method),
+                method.substeps,
+                method.automatic
+            );
+            figures.at_most(&format!("{name}: energy gained"), most - 1.0, gain);
+            figures.at_most(&format!("{name}: energy lost"), 1.0 - kinetic_energy(&world) / start, 0.05);
+            figures.at_most(&format!("{name}: gap over arm"), apart / arm, gap);
+        }
+    }
+}
+
+#[test]
+fn discs_pinned_fifty_radii_outside_themselves_stay_bounded_at_any_substeps() {
+    let mut figures = Figures::default();
+    for scale in [1.0, 10.0] {
+        for mirror in [1.0, -1.0] {
+            for substeps in [1, 2, 4, 8, 16, 64] {
+                for method in every_method(rate(60.0, substeps, 10)) {
+                    let mut world = weightless();
+                    let m = |x: f64, y: f64| v(x, mirror * y);
+                    let disc = |at: DVec2, radius: f64, velocity: DVec2| {
+                        let spin = Some(Spin::default());
+                        Body { radius: scale * radius, spin, collides: false, ..ball(scale * at, velocity) }
+                    };
+                    let one = world.add_body(&disc(m(-0.006, -0.009), 1e-4, DVec2::ZERO)).unwrap();
+                    let other = world.add_body(&disc(m(-0.02, -0.009), 0.01, m(-0.7, 3.0))).unwrap();
+                    let pin = |a: Anchor, b: Anchor| Constraint { kind: Kind::Pin, a, b };
+                    let fixed = Anchor::World(scale * m(-0.003, -0.004));
+                    world.add_constraint(&pin(fixed, Anchor::Body(one, scale * m(0.003, 0.004)))).unwrap();
+                    let ahead = Anchor::Body(one, scale * m(-0.009, 4e-5));
+                    world.add_constraint(&pin(ahead, Anchor::Body(other, scale * m(0.009, -4e-5)))).unwrap();
+                    let (start, mut most) = (kinetic_energy(&world), 0.0f64);
+                    watch(&mut world, method, 10.0, |world, _| most = most.max(kinetic_energy(world)));
+                    let name = format!("× {scale}, {}, {substeps} substeps", label(&method));
+                    // The first disc turns by up to a radian in a substep, so nothing is right; without the bound it is 1e14.
+                    figures.at_most(&format!("{name}: energy over that of the start"), most / start, 40.0);
+                }
+            }
+        }
     }
 }

@@ -1,6 +1,8 @@
 //! Physics against closed forms, which the tests compute themselves. Every figure is printed; run with `--nocapture` to read.
 
 mod chains;
+mod closed_boxes;
+mod clusters;
 mod few;
 mod figures;
 mod free_motion;

@@ -2,11 +2,13 @@
 
 mod broad;
 mod grid;
+mod guard;
 mod narrow;
 pub(crate) mod sweep;
 
 pub(crate) use broad::BroadPhase;
 pub(crate) use grid::Grid;
+pub(crate) use guard::WallGuard;
 pub(crate) use narrow::find_contacts;
 
 use super::plan::Plan;

@@ -93,6 +93,10 @@ impl Narrow<'_> {
         let here = (normal, distance - radius_a - radius_b);
         let Meeting { normal, gap, .. } =
             judge(here, path, smaller, || disc_hits_disc(offset, path, radius_a + radius_b))?;
+        if self.state.inverse_mass[i] == 0.0 && self.state.inverse_mass[j] == 0.0 {
+            // Both are carried elsewhere in this step.
+            return None;
+        }
         let point = self.state.position[j] + normal * (radius_b + 0.5 * gap);
         Some(contact(a, Touching::Body(b), point, normal, gap))
     }
@@ -106,7 +110,7 @@ impl Narrow<'_> {
         let (distance, normal) = shape.distance(position);
         let Meeting { normal, gap, fraction } =
             judge((normal, distance - radius), path, radius, || disc_hits_wall(shape, position, path, radius))?;
-        if self.meets_seam(wall, near, position + fraction * path, radius) {
+        if self.state.inverse_mass[i] == 0.0 || self.meets_seam(wall, near, position + fraction * path, radius) {
             return None;
         }
         Some(contact(a, Touching::Wall(wall), position - normal * (radius + 0.5 * gap), normal, gap))

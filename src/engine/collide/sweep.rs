@@ -1,9 +1,7 @@
-//! Continuous detection: where a moving disc first meets something, and the drift that stops there as the last resort.
+//! Continuous detection: where a moving disc first meets something, and the drift.
 
-use super::may_touch_walls;
-use crate::engine::shape::{Shape, Wall};
+use crate::engine::shape::Shape;
 use crate::engine::state::State;
-use crate::engine::world::World;
 use glam::DVec2;
 
 /// Part of a disc's radius that must never get through a wall. Contacts stop the full disc; this catches what a solver that
@@ -31,7 +29,7 @@ pub(super) fn disc_hits_disc(offset: DVec2, path: DVec2, radius: f64) -> Option<
 /// Newton's method on the distance, which along a straight path past a convex shape is a convex function of the way: from
 /// outside, a step along its tangent never jumps over the first meeting, and converges quadratically also where the path
 /// grazes. (Conservative advancement, by the distance itself, needs hundreds of steps there.)
-pub(super) fn disc_hits_wall(shape: &Shape, position: DVec2, path: DVec2, radius: f64) -> Option<(DVec2, f64)> {
+pub(crate) fn disc_hits_wall(shape: &Shape, position: DVec2, path: DVec2, radius: f64) -> Option<(DVec2, f64)> {
     let tolerance = 1e-9 * radius;
     let mut t = 0.0;
     for _ in 0..ADVANCES {
@@ -62,39 +60,4 @@ pub(crate) fn drift(state: &mut State, h: f64) {
     for (angle, omega) in state.angle.iter_mut().zip(&state.omega) {
         *angle += h * omega;
     }
-}
-
-/// Puts a body back to where its core met a wall on the straight way from `start`; there its velocity into the wall bounces.
-pub(crate) fn keep_out_of_walls(world: &World, state: &mut State, start: &[DVec2]) {
-    for (i, from) in start.iter().enumerate().take(state.len()) {
-        let path = state.position[i] - *from;
-        let core = CORE * world.bodies.radius[i];
-        if path.length_squared() > core * core
-            && may_touch_walls(world, i as u32)
-            && let Some((wall, normal, fraction)) = first_wall(world, *from, path, core)
-        {
-            state.position[i] = *from + path * fraction;
-            let own = world.bodies.restitution[i].max(wall.restitution);
-            let into = state.velocity[i].dot(normal).min(0.0);
-            state.velocity[i] -= (1.0 + world.tuning.restitution.unwrap_or(own)) * into * normal;
-        }
-    }
-}
-
-/// The first wall that a disc of radius `core` meets on `path` from outside of it, its normal there, the fraction of the path.
-fn first_wall(world: &World, from: DVec2, path: DVec2, core: f64) -> Option<(&Wall, DVec2, f64)> {
-    let (low, high) = (from.min(from + path), from.max(from + path));
-    let mut first: Option<(&Wall, DVec2, f64)> = None;
-    for wall in &world.walls {
-        let (min, max) = wall.shape.bounds();
-        let near = min.cmple(high + DVec2::splat(core)).all() && max.cmpge(low - DVec2::splat(core)).all();
-        if near
-            && wall.shape.distance(from).0 > core
-            && let Some((normal, fraction)) = disc_hits_wall(&wall.shape, from, path, core)
-            && first.is_none_or(|first| fraction < first.2)
-        {
-            first = Some((wall, normal, fraction));
-        }
-    }
-    first
 }

@@ -8,6 +8,13 @@ use super::{Kind, pin, rod, rope, spring};
 use crate::engine::state::State;
 use glam::DVec2;
 
+/// Largest angle by which a correction of positions turns a body [rad]. It is computed along the tangent of the anchor's circle; more than this along a
+/// tangent leads away from where it should.
+const MOST_TURN: f64 = 0.5;
+
+/// Way along the tangent in radii up to which a soft joint follows a chord.
+const LONGEST_CHORD: f64 = 0.9;
+
 /// What C measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Measure {
@@ -106,6 +113,50 @@ impl Joint {
         k
     }
 
+    /// K⁻¹ of the two rows of a pin at the present positions: its entries xx, xy, yy [kg].
+    ///
+    /// K = W 1 + i_a p pᵀ + i_b q qᵀ, with p and q the arms of the rows. Far outside a small disc the rows depend on each other nearly, and only its
+    /// determinant in the form W² + W (i_a p² + i_b q²) + i_a i_b (p × q)² does not cancel.
+    pub fn inverse_of_pin<const SPIN: bool>(&self, [x, y]: [&Row; 2], state: &State) -> [f64; 3] {
+        let (a, b) = (self.a as usize, self.b as usize);
+        let w = state.inverse_mass[a] + state.inverse_mass[b];
+        if !SPIN {
+            return [1.0 / w, 0.0, 1.0 / w];
+        }
+        let (i_a, i_b) = (state.inverse_inertia[a], state.inverse_inertia[b]);
+        let (p, q) = (DVec2::new(x.arm_a, y.arm_a), DVec2::new(x.arm_b, y.arm_b));
+        let cross = p.perp_dot(q);
+        let determinant = w * w + w * (i_a * p.length_squared() + i_b * q.length_squared()) + i_a * i_b * cross * cross;
+        let off = i_a * p.x * p.y + i_b * q.x * q.y;
+        let (xx, yy) = (w + i_a * p.x * p.x + i_b * q.x * q.x, w + i_a * p.y * p.y + i_b * q.y * q.y);
+        [yy / determinant, -off / determinant, xx / determinant]
+    }
+
+    /// Moves both bodies by a push along `rows` [kg·m], less where one of them would turn by more than [`MOST_TURN`].
+    pub fn shift<const SPIN: bool>(&self, rows: &[Option<Row>; 2], push: DVec2, state: &mut State) {
+        let (a, b) = (self.a as usize, self.b as usize);
+        let along = rows.iter().flatten().zip([push.x, push.y]);
+        let mut part = 1.0;
+        if SPIN {
+            let turn = |inertia: f64, arm: fn(&Row) -> f64| {
+                inertia * along.clone().map(|(row, push)| arm(row) * push).sum::<f64>()
+            };
+            let (turn_a, turn_b) =
+                (turn(state.inverse_inertia[a], |row| row.arm_a), turn(state.inverse_inertia[b], |row| row.arm_b));
+            let most = turn_a.abs().max(turn_b.abs());
+            if most > MOST_TURN {
+                part = MOST_TURN / most;
+            }
+            state.angle[a] -= part * turn_a;
+            state.angle[b] += part * turn_b;
+        }
+        for (row, push) in along {
+            let push = part * push;
+            state.position[a] -= state.inverse_mass[a] * push * row.normal;
+            state.position[b] += state.inverse_mass[b] * push * row.normal;
+        }
+    }
+
     /// J v of one row [m/s].
     pub fn speed<const SPIN: bool>(&self, row: &Row, state: &State) -> f64 {
         let (a, b) = (self.a as usize, self.b as usize);
@@ -119,7 +170,8 @@ impl Joint {
     /// ½ h J̇v of each row [m/s], at the present positions and velocities.
     ///
     /// A drift along J v = 0 leaves the circle on which a joint turns; one with J v = −½ h J̇v follows the chord of its arc and
-    /// keeps the speed. Turning by more than a radian in `h` seconds counts as one radian.
+    /// keeps the speed. Turning by more than a radian in `h` seconds counts as one radian. A soft joint forgets what a substep was off, so its chord
+    /// ends on the circle exactly, where that of a rigid one leaves the fourth order to the feedback.
     pub fn half_turning<const SPIN: bool>(&self, state: &State, h: f64) -> DVec2 {
         let (a, b) = (self.a as usize, self.b as usize);
         let (r_a, r_b) = (state.arm::<SPIN>(self.a, self.at_a), state.arm::<SPIN>(self.b, self.at_b));
@@ -137,10 +189,21 @@ impl Joint {
             Measure::Distance { .. } if distance > 0.0 => {
                 let normal = offset / distance;
                 let across = normal.perp_dot(speed).abs();
-                let turning = across * (h * across / distance).min(1.0);
+                let turned = h * across / distance;
+                let turning = across * if self.form.stiffness.is_finite() { chord(turned) } else { turned.min(1.0) };
                 DVec2::new(0.5 * (h * normal.dot(towards_centre) + turning), 0.0)
             }
             Measure::Distance { .. } => DVec2::ZERO,
         }
     }
+}
+
+/// Twice the slope of the chord that starts along the tangent by `turned` radii and ends on the circle: 2 (1 − √(1 − x²))/x, which is x for small x.
+///
+/// Where ends pass each other closely there is no such chord, nor any sense in one: it fades, as the same slope in every substep would feed the motion.
+fn chord(turned: f64) -> f64 {
+    let x = turned.min(LONGEST_CHORD);
+    let fade = if turned > x { x / turned } else { 1.0 };
+    // In the form that does not cancel.
+    2.0 * x / (1.0 + (1.0 - x * x).sqrt()) * fade * fade
 }

@@ -18,9 +18,9 @@ const CHANGES: [usize; 2] = [32, 8];
 const SWEEPS: u32 = 200;
 /// Most times a step that Gauss-Seidel is asked for: what needs more does not run in real time.
 const RESCUES: u32 = 4;
-/// Most cubes of the rows solved for in a step: some milliseconds. A heap of a hundred discs needs more than all else together, and does
+/// Most cubes of the rows solved for, and squares of those swept, in a sixtieth of a second: some milliseconds. A heap of a hundred discs needs more than all else together, and does
 /// not run in real time.
-const MOST_WORK: u64 = 10_000_000;
+const MOST_WORK: f64 = 1e7;
 /// Part of the largest force that is rounding.
 const ROUNDING: f64 = 1e-13;
 /// Part of the right-hand side that may be left over where rows are redundant; more is a contradiction.
@@ -64,15 +64,16 @@ pub(super) struct Cone {
     right: Vec<f64>,
     found: Vec<f64>,
     qr: Qr,
-    /// Times that Gauss-Seidel was asked for, and the cubes of the rows solved for, in this step.
+    /// Times that Gauss-Seidel was asked for, and the work of all solves, in this step; and the most of it.
     rescues: u32,
-    work: u64,
+    work: f64,
+    most_work: f64,
 }
 
 impl Cone {
-    /// Begins a step.
-    pub fn forget_work(&mut self) {
-        (self.rescues, self.work) = (0, 0);
+    /// Begins a step, `sixtieths` of a second long.
+    pub fn forget_work(&mut self, sixtieths: f64) {
+        (self.rescues, self.work, self.most_work) = (0, 0.0, MOST_WORK * sixtieths);
     }
 
     /// Begins a problem: A of these contacts, everything acting and sticking, b = 0.
@@ -130,8 +131,9 @@ impl Cone {
     /// Finds the set and its solution; `false` if it cycles, also from the set that projected Gauss-Seidel comes near to, or costs too much.
     pub fn solve(&mut self) -> bool {
         self.improve_set()
-            || self.rescues < RESCUES && {
+            || self.rescues < RESCUES && self.work <= self.most_work && {
                 self.rescues += 1;
+                self.work += f64::from(SWEEPS) * (self.lambda.len() as f64).powi(2);
                 self.sweep();
                 self.improve_set()
             }
@@ -190,8 +192,8 @@ impl Cone {
             }
         }
         let k = self.unknown.len();
-        self.work += (k as u64).pow(3);
-        if self.work > MOST_WORK {
+        self.work += (k as f64).powi(3);
+        if self.work > self.most_work {
             return false;
         }
         self.lambda.fill(0.0);

@@ -1,8 +1,9 @@
-//! The group's way through a step, event by event.
+//! The way of free bodies through a step, cluster by cluster, event by event.
 
+use super::clusters::{Cluster, Clusters};
 use super::collide::Collisions;
 use super::cone::Cone;
-use super::path::Path;
+use super::path::{Drag, Path};
 use super::record::Records;
 use super::rest::{Forces, Held, STICKS, Surroundings, settle};
 use super::rolling::{Curve, Frame, Rolling};
@@ -10,17 +11,22 @@ use super::surfaces::{Surfaces, TooDeep};
 use super::touch::Touch;
 use crate::engine::body::NO_ROTOR;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
-use crate::engine::plan::FewPlan;
+use crate::engine::plan::{FewPlan, Plan};
 use crate::engine::report::StepReport;
 use crate::engine::world::{Touching, World};
+use glam::DVec2;
 
 /// A rebound that lasts no longer than this part of a step ends in rest: some 3 pm high at 60 Hz. Smaller costs more bounces on the way there.
 const NO_TIME: f64 = 1e-4;
 /// After so many events, and so many more for each body, such a rebound may last twice as long, up to so many doublings.
 const PATIENCE: [usize; 2] = [32, 4];
 const DOUBLINGS: usize = 8;
-/// Most events of a step, and so many more for each body: what has more does not run in real time.
-const MOST_EVENTS: [usize; 2] = [300, 20];
+/// Most events in a sixtieth of a second, and so many more for each body: what has more does not run in real time.
+const MOST_EVENTS: [f64; 2] = [300.0, 20.0];
+/// Shortest step, in sixtieths of a second, to which the limits of events and of solves shrink: a bounce that ends needs its events in any step.
+const LEAST_SHARE: [f64; 2] = [0.25, 0.02];
+/// Bodies of a cluster, static ones in its way among them, that are few enough to be carried: their cost a step grows with the square, and with the walls.
+pub(crate) const MOST_TOGETHER: usize = 128;
 /// Contacts that act at once; their direct solve costs the cube.
 const MOST_AT_ONCE: usize = 96;
 
@@ -43,10 +49,35 @@ enum Next {
     Change,
 }
 
+/// Times that clusters are found in a step, each time with what was learned about how far bodies come.
+const ROUNDS: u32 = 4;
+
+/// How the clusters of a step fared.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Fared {
+    /// Some that something else can reach, or that are too large.
+    pub left: bool,
+    /// How many could not be carried.
+    pub lost: usize,
+    /// Impacts and located instants of the others.
+    bounces: usize,
+    events: usize,
+}
+
 /// Free bodies that can touch, carried exactly, and the scratch memory for it.
 #[derive(Debug, Default)]
 pub(crate) struct Few {
+    plan: FewPlan,
+    clusters: Clusters,
+    /// Bodies carried in this step, with where they are at its end, and all their contacts.
+    carried: Vec<(u32, Path)>,
+    told: Records,
+    /// The cluster in work, by place.
     surfaces: Surfaces,
+    /// Where each body began, and how far from there it came [m].
+    way: Vec<(DVec2, f64)>,
+    /// Bodies that left the balls in which they were expected, and those in which they were [m].
+    strayed: Vec<(u32, f64)>,
     paths: Vec<Path>,
     /// Paths told from the time of the event in work.
     here: Vec<Path>,
@@ -73,12 +104,14 @@ pub(crate) struct Few {
     tolerance: f64,
     /// Length of the step [s].
     end: f64,
+    /// Of the cluster, and those left for the step.
     events: usize,
+    events_left: f64,
     /// Paths under changing forces, since the start of the step.
     rolls: u32,
 }
 
-/// The group cannot be carried through this step.
+/// A cluster cannot be carried through this step.
 struct Lost;
 
 impl From<TooDeep> for Lost {
@@ -89,42 +122,113 @@ impl From<TooDeep> for Lost {
 
 impl Few {
     /// Makes the group anew.
-    pub fn build(&mut self, world: &World, plan: &FewPlan) {
-        self.surfaces.build(world, &plan.bodies);
-        self.tolerance = plan.tolerance.max(FINEST) * self.surfaces.least_radius();
+    pub fn build(&mut self, plan: Option<&FewPlan>) {
+        self.plan = plan.cloned().unwrap_or_default();
     }
 
-    /// Carries the group through `time` [s] without touching the world; `false` if it cannot be.
-    pub fn advance(&mut self, world: &World, time: f64, report: &mut StepReport) -> bool {
-        self.load(world, time);
-        let carried = self.run(world).is_ok() && self.in_range();
-        if carried {
-            report.impacts += self.collisions.bounces;
-            report.events += self.events as u32;
+    /// Carries what it can of the group through `time` [s] without touching the world.
+    pub fn advance(&mut self, world: &World, plan: &Plan, time: f64, report: &mut StepReport) -> Fared {
+        let mut fared = Fared::default();
+        self.carried.clear();
+        self.told.clear();
+        if self.plan.bodies.is_empty() {
+            return fared;
         }
-        carried
-    }
-
-    fn load(&mut self, world: &World, time: f64) {
-        let bodies = &world.bodies;
+        let sixtieths = 60.0 * time;
         self.end = time;
-        self.events = 0;
         self.rolls = 0;
-        self.collisions.bounces = 0;
-        self.cone.forget_work();
-        self.paths.clear();
-        for (place, body) in self.surfaces.body.iter().enumerate() {
-            let spin = bodies.spin(*body as usize).unwrap_or_default();
-            let moves = self.surfaces.is_dynamic(place);
-            self.paths.push(Path {
-                position: bodies.position[*body as usize],
-                velocity: if moves { bodies.velocity[*body as usize] } else { Default::default() },
-                drive: if moves { world.gravity } else { Default::default() },
-                angle: spin.angle,
-                omega: if moves { spin.omega } else { 0.0 },
-                ..Path::default()
-            });
+        self.events_left =
+            (MOST_EVENTS[0] + MOST_EVENTS[1] * self.plan.bodies.len() as f64) * sixtieths.max(LEAST_SHARE[0]);
+        self.cone.forget_work(sixtieths.max(LEAST_SHARE[1]));
+        self.strayed.clear();
+        let mut clusters = std::mem::take(&mut self.clusters);
+        for round in 0..ROUNDS {
+            clusters.find(world, plan, &self.plan.bodies, time, &self.strayed);
+            fared = self.carry_all(world, &clusters);
+            if clusters.stay_apart(world, plan, &self.strayed) {
+                break;
+            }
+            if round + 1 == ROUNDS {
+                fared.lost += 1;
+                self.carried.clear();
+                self.told.clear();
+            }
         }
+        self.clusters = clusters;
+        if !self.carried.is_empty() {
+            report.impacts += fared.bounces;
+            report.events += fared.events as u32;
+        }
+        fared
+    }
+
+    fn carry_all(&mut self, world: &World, clusters: &Clusters) -> Fared {
+        let mut fared = Fared::default();
+        self.carried.clear();
+        self.told.clear();
+        for cluster in clusters.iter() {
+            if cluster.near || cluster.len() > MOST_TOGETHER {
+                fared.left = true;
+                continue;
+            }
+            match self.carry(world, clusters, cluster) {
+                Ok([bounces, events]) => {
+                    fared.bounces += bounces;
+                    fared.events += events;
+                }
+                Err(Lost) => fared.lost += 1,
+            }
+        }
+        fared
+    }
+
+    /// Carries one cluster; tells its bounces and events.
+    fn carry(&mut self, world: &World, clusters: &Clusters, cluster: Cluster) -> Result<[usize; 2], Lost> {
+        if let Some(body) = cluster.single()
+            && let Some(path) = self.alone(world, clusters, body)
+        {
+            self.carried.push((body, path));
+            return Ok([0; 2]);
+        }
+        self.surfaces.build(world, cluster.bodies());
+        self.tolerance = self.plan.tolerance.max(FINEST) * self.surfaces.least_radius();
+        self.load(world);
+        self.run(world)?;
+        if !self.in_range() {
+            return Err(Lost);
+        }
+        for place in (0..self.surfaces.len()).filter(|place| self.surfaces.is_dynamic(*place)) {
+            let (body, way) = (self.surfaces.body[place], self.way[place].1);
+            self.carried.push((body, self.paths[place]));
+            if way > clusters.room(world, body, self.end) {
+                self.strayed.push((body, Clusters::ball(world, body, way, self.end)));
+            }
+        }
+        self.told.append(&mut self.records);
+        Ok([self.collisions.bounces, self.events])
+    }
+
+    /// Where a body is at the end that reaches nothing at all, if it is one.
+    fn alone(&self, world: &World, clusters: &Clusters, body: u32) -> Option<Path> {
+        let path = start_of(world, body);
+        let room = clusters.room(world, body, self.end);
+        let reach = DVec2::splat(world.bodies.radius[body as usize] + room);
+        let (low, high) = (path.position - reach, path.position + reach);
+        let meets = |(min, max): (DVec2, DVec2)| min.cmple(high).all() && max.cmpge(low).all();
+        if room.is_finite() && world.walls.iter().any(|wall| meets(wall.shape.bounds())) {
+            return None;
+        }
+        Some(path.at(self.end, Drag(world.drag))).filter(in_range)
+    }
+
+    /// Begins the cluster.
+    fn load(&mut self, world: &World) {
+        self.events = 0;
+        self.collisions.bounces = 0;
+        self.paths.clear();
+        self.paths.extend(self.surfaces.body.iter().map(|body| start_of(world, *body)));
+        self.way.clear();
+        self.way.extend(self.paths.iter().map(|path| (path.position, 0.0)));
         self.paths.push(Path::default());
         self.next.clear();
         self.next.resize(self.surfaces.len(), (f64::INFINITY, Next::Nothing));
@@ -159,7 +263,8 @@ impl Few {
                 break;
             }
             self.events += 1;
-            if self.events > MOST_EVENTS[0] + MOST_EVENTS[1] * self.surfaces.len() {
+            self.events_left -= 1.0;
+            if self.events_left < 0.0 {
                 return Err(Lost);
             }
             self.set_here(world, time)?;
@@ -169,6 +274,9 @@ impl Few {
         }
         self.set_here(world, self.end)?;
         self.paths.clone_from(&self.here);
+        for (path, (start, farthest)) in self.paths.iter().zip(&mut self.way) {
+            *farthest = farthest.max((path.position - *start).length());
+        }
         self.in_group.fill(true);
         self.release(self.end);
         Ok(())
@@ -192,6 +300,10 @@ impl Few {
     /// Bounces and forces of all that hangs together with the `seeds` at `time`; their paths then go on from there.
     fn process(&mut self, world: &World, time: f64, seeds: [Option<usize>; 2]) -> Result<(), Lost> {
         self.gather(world, seeds)?;
+        for place in &self.group {
+            let (start, farthest) = &mut self.way[*place];
+            *farthest = farthest.max((self.here[*place].position - *start).length());
+        }
         self.release(time);
         self.group.iter().for_each(|place| self.paths[*place] = self.here[*place]);
         let rest = self.rest_speed(world);
@@ -378,23 +490,20 @@ impl Few {
 
     /// Whether all bodies are where numbers mean something.
     fn in_range(&self) -> bool {
-        // Written so that a NaN is out of range.
-        self.paths.iter().all(|path| {
-            path.position.x.abs() <= LARGEST_COORDINATE
-                && path.position.y.abs() <= LARGEST_COORDINATE
-                && path.velocity.x.abs() <= LARGEST_SPEED
-                && path.velocity.y.abs() <= LARGEST_SPEED
-                && path.omega.abs() <= LARGEST_SPEED
-                && path.angle.abs() <= LARGEST_SPEED * LARGEST_COORDINATE
-        })
+        self.paths.iter().all(in_range)
     }
 
-    /// Writes the group and its contacts to the world.
+    /// Says in `flags` which bodies of the group were carried in this step.
+    pub fn mark_carried(&self, flags: &mut [bool]) {
+        self.plan.bodies.iter().for_each(|body| flags[*body as usize] = false);
+        self.carried.iter().for_each(|(body, _)| flags[*body as usize] = true);
+    }
+
+    /// Writes what was carried and its contacts to the world.
     pub fn store(&mut self, world: &mut World) {
         let bodies = &mut world.bodies;
-        for (place, body) in self.surfaces.body.iter().enumerate().filter(|(place, _)| self.surfaces.is_dynamic(*place))
-        {
-            let (i, path) = (*body as usize, &self.paths[place]);
+        for (body, path) in &self.carried {
+            let i = *body as usize;
             bodies.position[i] = path.position;
             bodies.velocity[i] = path.velocity;
             let rotor = bodies.rotor[i];
@@ -403,6 +512,31 @@ impl Few {
                 bodies.rotors.omega[rotor as usize] = path.omega;
             }
         }
-        self.records.store(world, self.end);
+        if !self.carried.is_empty() {
+            self.told.store(world, self.end);
+        }
     }
+}
+
+/// The path of a body at the start of a step, before anything touches it.
+fn start_of(world: &World, body: u32) -> Path {
+    let (bodies, i) = (&world.bodies, body as usize);
+    let spin = bodies.spin(i).unwrap_or_default();
+    let path = Path { position: bodies.position[i], angle: spin.angle, ..Path::default() };
+    if bodies.inverse_mass[i] > 0.0 {
+        Path { velocity: bodies.velocity[i], drive: world.gravity, omega: spin.omega, ..path }
+    } else {
+        path
+    }
+}
+
+/// Whether a body is where numbers mean something.
+fn in_range(path: &Path) -> bool {
+    // Written so that a NaN is out of range.
+    path.position.x.abs() <= LARGEST_COORDINATE
+        && path.position.y.abs() <= LARGEST_COORDINATE
+        && path.velocity.x.abs() <= LARGEST_SPEED
+        && path.velocity.y.abs() <= LARGEST_SPEED
+        && path.omega.abs() <= LARGEST_SPEED
+        && path.angle.abs() <= LARGEST_SPEED * LARGEST_COORDINATE
 }

@@ -34,12 +34,13 @@ impl Records {
         });
     }
 
-    /// Writes them to the world, in its order, with the places that the bodies have there now, as forces over `time` [s].
+    /// Takes those of another group over; no pair is in both.
+    pub fn append(&mut self, other: &mut Records) {
+        self.0.append(&mut other.0);
+    }
+
+    /// Writes them to the world beside what is there, in its order, with the places that the bodies have there now, as forces over `time` [s].
     pub fn store(&mut self, world: &mut World, time: f64) {
-        self.0.sort_unstable_by_key(|contact| match contact.b {
-            Touching::Body(b) => (false, contact.a, b),
-            Touching::Wall(wall) => (true, contact.a, wall),
-        });
         for contact in &mut self.0 {
             let bodies = &world.bodies;
             let (i, centre) = (contact.a as usize, bodies.position[contact.a as usize]);
@@ -57,5 +58,9 @@ impl Records {
             contact.tangent_force /= time;
         }
         world.contacts.extend_from_slice(&self.0);
+        world.contacts.sort_unstable_by_key(|contact| match contact.b {
+            Touching::Body(b) => (false, contact.a, b),
+            Touching::Wall(wall) => (true, contact.a, wall),
+        });
     }
 }

@@ -30,24 +30,29 @@ pub(super) struct Surfaces {
 pub(super) struct TooDeep;
 
 impl Surfaces {
-    /// Makes the group anew.
-    pub fn build(&mut self, world: &World, bodies: &[u32]) {
+    /// Makes the group anew, of dense indices, ascending.
+    pub fn build(&mut self, world: &World, bodies: impl Iterator<Item = u32>) {
         self.body.clear();
-        self.body.extend_from_slice(bodies);
-        let (of_world, rotors) = (&world.bodies, &world.bodies.rotors);
-        let of = |values: &[f64]| bodies.iter().map(|i| values[*i as usize]).collect::<Vec<f64>>();
-        self.masses.inverse_mass = of(&of_world.inverse_mass);
-        self.masses.inverse_mass.push(0.0);
-        let inertia = |i: &u32| match of_world.rotor[*i as usize] {
+        self.body.extend(bodies);
+        let Surfaces { body, masses, drag, radius, group, solid } = self;
+        let (all, rotors) = (&world.bodies, &world.bodies.rotors);
+        let inertia = |i: usize| match all.rotor[i] {
             NO_ROTOR => 0.0,
             rotor => rotors.inverse_inertia[rotor as usize],
         };
-        self.masses.inverse_inertia = bodies.iter().map(inertia).chain([0.0]).collect();
-        self.drag = Drag(world.drag);
-        self.radius = of(&of_world.radius);
-        self.group = bodies.iter().map(|i| of_world.group[*i as usize]).collect();
-        self.solid =
-            bodies.iter().map(|i| of_world.collides[*i as usize] && of_world.radius[*i as usize] > 0.0).collect();
+        let of = || body.iter().map(|i| *i as usize);
+        // After the last body the immovable world.
+        masses.inverse_mass.clear();
+        masses.inverse_mass.extend(of().map(|i| all.inverse_mass[i]).chain([0.0]));
+        masses.inverse_inertia.clear();
+        masses.inverse_inertia.extend(of().map(inertia).chain([0.0]));
+        *drag = Drag(world.drag);
+        radius.clear();
+        radius.extend(of().map(|i| all.radius[i]));
+        group.clear();
+        group.extend(of().map(|i| all.group[i]));
+        solid.clear();
+        solid.extend(of().map(|i| all.collides[i] && all.radius[i] > 0.0));
     }
 
     pub fn len(&self) -> usize {

@@ -2,9 +2,11 @@
 //! an island's smooth motion.
 //!
 //! Two bodies may touch if their surfaces are closer than their relative speed carries them, and a little more for what changes
-//! the speed. What is overlooked for that reason overlaps by less than the little at the end of the step, and is near in the next.
+//! the speed. What is overlooked for that reason overlaps by less than the little at the end of the step, and is near in the next; but for
+//! walls, which a body that is pulled hard could pass meanwhile: those are looked at again when the step is known.
 
 use super::System;
+use crate::engine::collide::sweep::disc_hits_wall;
 use crate::engine::collide::{Grid, may_touch, may_touch_walls};
 use crate::engine::plan::{IslandPlan, Plan};
 use crate::engine::world::World;
@@ -16,6 +18,24 @@ const ROOM: f64 = 0.05;
 const LARGE: f64 = 4.0;
 /// No island.
 const NONE: u32 = u32::MAX;
+
+/// Whether a body of an island came to a wall on the straight way from where the world has it.
+pub(super) fn came_to_wall(world: &World, system: &System) -> bool {
+    let nodes = &system.nodes;
+    (0..nodes.len()).filter(|i| nodes.w[*i] > 0.0).any(|i| {
+        let body = nodes.body[i];
+        // Points that turn with a body have no mass, so this is one.
+        let (from, radius) = (world.bodies.position[body as usize], world.bodies.radius[body as usize]);
+        let path = DVec2::new(nodes.x[i], nodes.y[i]) - from;
+        let (low, high) = (from.min(from + path) - DVec2::splat(radius), from.max(from + path) + DVec2::splat(radius));
+        may_touch_walls(world, body)
+            && world.walls.iter().any(|wall| {
+                let (min, max) = wall.shape.bounds();
+                let apart = min.cmpgt(high).any() || max.cmplt(low).any();
+                !apart && disc_hits_wall(&wall.shape, from, path, radius).is_some()
+            })
+    })
+}
 
 /// Scratch memory, by body.
 #[derive(Debug, Default)]

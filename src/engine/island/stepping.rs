@@ -1,12 +1,12 @@
 //! Carries all islands of a plan through a step.
 
 use super::System;
-use super::near::Surroundings;
+use super::near::{Surroundings, came_to_wall};
 use crate::engine::Integrator;
 use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
-use crate::engine::impact::Few;
+use crate::engine::impact::{Fared, Few};
 use crate::engine::integrate::energy_momentum::EnergyMomentum;
 use crate::engine::integrate::nystrom::Nystrom;
 use crate::engine::integrate::outcome::Outcome;
@@ -53,9 +53,7 @@ impl Islands {
             }
             self.islands.push((plan.clone(), system));
         }
-        if let Some(few) = &plan.few {
-            self.few.build(world, few);
-        }
+        self.few.build(plan.few.as_ref());
     }
 
     /// Carries all islands through `time` [s], without touching the world. Those that something is near to, and those whose equations cannot be solved to the
@@ -84,6 +82,11 @@ impl Islands {
                 self.given_up.push(index);
                 continue;
             }
+            if self.islands[index].0.guarded && came_to_wall(world, system) {
+                self.given_up.push(index);
+                report.near += 1;
+                continue;
+            }
             if system.nodes.len() > largest {
                 largest = system.nodes.len();
                 report.integrator = Some(integrator);
@@ -94,15 +97,18 @@ impl Islands {
             report.local_error = report.local_error.max(outcome.error / system.length);
             report.redundant += system.matrix.pivots.dropped;
         }
-        if let Some(few) = &plan.few {
-            if few.is_held(world) {
-                self.given_up.push(self.islands.len());
-                report.near += 1;
-            } else if !self.few.advance(world, time, report) {
-                self.given_up.push(self.islands.len());
-            }
-        }
         report.given_up = self.given_up.len() - report.near;
+        let Fared { left, lost, .. } = self.few.advance(world, plan, time, report);
+        if left || lost > 0 {
+            self.given_up.push(self.islands.len());
+        }
+        report.near += usize::from(left);
+        report.given_up += lost;
+    }
+
+    /// Says in `flags` which of the free bodies were carried from event to event in this step.
+    pub fn mark_carried(&self, flags: &mut [bool]) {
+        self.few.mark_carried(flags);
     }
 
     /// Carries one island through `time` [s]; says what did it.
@@ -165,10 +171,8 @@ impl Islands {
     }
 
     /// Writes the islands back, but for those given up; what turns freely turns on for `time` [s].
-    pub fn store(&mut self, world: &mut World, plan: &Plan, time: f64) {
-        if plan.few.is_some() {
-            self.few.store(world);
-        }
+    pub fn store(&mut self, world: &mut World, time: f64) {
+        self.few.store(world);
         let given_up = |index: &usize| self.given_up.binary_search(index).is_ok();
         for (index, (_, system)) in self.islands.iter().enumerate().filter(|(index, _)| !given_up(index)) {
             if !world.bodies.rotors.omega.is_empty() {

@@ -91,6 +91,11 @@ impl ContactRow {
         speed
     }
 
+    /// Radius of the smaller body [m].
+    pub fn least_radius(&self) -> f64 {
+        if self.radius_b > 0.0 { self.radius_a.min(self.radius_b) } else { self.radius_a }
+    }
+
     /// Adds an impulse along the normal [N·s].
     pub fn push(&self, impulse: f64, state: &mut State) {
         let (a, b) = (self.a as usize, self.b as usize);

@@ -10,23 +10,21 @@
 
 use crate::engine::constraint::form::Joint;
 use crate::engine::state::State;
+use glam::DVec2;
 
 /// Takes the part `part` of every rigid joint's error away.
 pub(crate) fn feed_back<const SPIN: bool>(joints: &[Joint], part: f64, state: &mut State) {
     for joint in joints.iter().filter(|joint| !joint.form.stiffness.is_finite()) {
-        for axis in 0..joint.form.rows() {
-            let Some(row) = joint.rows::<SPIN>(state)[axis] else { break };
-            if joint.form.high == 0.0 && row.error <= 0.0 {
-                break;
+        let rows = joint.rows::<SPIN>(state);
+        let push = match &rows {
+            [Some(row), None] if joint.form.high == 0.0 && row.error <= 0.0 => continue,
+            [Some(row), None] => DVec2::new(-part * row.error / joint.inverse_effective_mass::<SPIN>(row, state), 0.0),
+            [Some(x), Some(y)] => {
+                let [xx, xy, yy] = joint.inverse_of_pin::<SPIN>([x, y], state);
+                -part * DVec2::new(xx * x.error + xy * y.error, xy * x.error + yy * y.error)
             }
-            let push = -part * row.error / joint.inverse_effective_mass::<SPIN>(&row, state);
-            let (a, b) = (joint.a as usize, joint.b as usize);
-            state.position[a] -= state.inverse_mass[a] * push * row.normal;
-            state.position[b] += state.inverse_mass[b] * push * row.normal;
-            if SPIN {
-                state.angle[a] -= state.inverse_inertia[a] * push * row.arm_a;
-                state.angle[b] += state.inverse_inertia[b] * push * row.arm_b;
-            }
-        }
+            _ => continue,
+        };
+        joint.shift::<SPIN>(&rows, push, state);
     }
 }

@@ -16,6 +16,12 @@ use crate::engine::state::State;
 use crate::engine::world::{Contact, World};
 use glam::DVec2;
 
+/// Sweeps go on, up to so many times those asked for, where gravity alone moves bodies by their radii in a substep, as discs of ten
+/// micrometres: a stack of them would fall into itself.
+const MORE_SWEEPS: u32 = 20;
+/// Part of the smallest radius that gravity has to move bodies by, and by which they may move on what the sweeps have left over.
+const THROUGH: f64 = 0.1;
+
 /// One scalar row of a joint.
 #[derive(Clone, Copy, Debug)]
 struct JointRow {
@@ -36,6 +42,13 @@ struct JointRow {
     impulse: f64,
 }
 
+/// K⁻¹ of a pin whose two rows know of each other: xx, xy, yy [kg], and the place of its first row.
+#[derive(Clone, Copy, Debug)]
+struct PinBlock {
+    row: usize,
+    inverse: [f64; 3],
+}
+
 /// What a solve is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Task {
@@ -52,13 +65,20 @@ pub(crate) struct Task {
 #[derive(Debug, Default)]
 pub(crate) struct Pgs {
     joints: Vec<JointRow>,
+    /// Pins with arms, in the order of their rows.
+    pins: Vec<PinBlock>,
     pub contacts: Vec<ContactRow>,
     grip: Option<GripRows>,
     /// Impulses of the joints' rows and of the grip that an earlier solve of the same substep found [N·s].
     found: Vec<f64>,
     grip_found: DVec2,
-    /// Largest change of a row's velocity in the last sweep [m/s].
+    /// Largest change of a row's velocity in the last sweep [m/s], and of a contact's.
     pub residual: f64,
+    closing: f64,
+    /// Of all bodies with contacts [m].
+    least_radius: f64,
+    /// [m/s²]
+    gravity: f64,
 }
 
 impl Pgs {
@@ -71,6 +91,8 @@ impl Pgs {
     pub fn assemble_contacts<const SPIN: bool>(&mut self, world: &World, contacts: &[Contact], state: &State) {
         self.contacts.clear();
         self.contacts.extend(contacts.iter().map(|contact| ContactRow::of::<SPIN>(contact, world, state)));
+        self.gravity = world.gravity.length();
+        self.least_radius = self.contacts.iter().map(ContactRow::least_radius).fold(f64::INFINITY, f64::min);
     }
 
     /// Evaluates the rows of the joints and the grip at the present positions, and the impulses to start from: parts of the
@@ -86,14 +108,12 @@ impl Pgs {
     ) {
         let warm = if task.warm_start { task.h * task.share } else { 0.0 };
         self.joints.clear();
+        self.pins.clear();
         self.found.clear();
         for joint in joints {
             let start = force[joint.index as usize] * warm;
-            let [first, second] = joint.rows::<SPIN>(state);
-            let rigid = !joint.form.stiffness.is_finite();
-            let turning = if rigid { joint.half_turning::<SPIN>(state, task.h) } else { DVec2::ZERO };
-            self.joints.extend(first.map(|row| JointRow::of::<SPIN>(joint, &row, state, turning.x, start.x, task)));
-            self.joints.extend(second.map(|row| JointRow::of::<SPIN>(joint, &row, state, turning.y, start.y, task)));
+            let turning = joint.half_turning::<SPIN>(state, task.h);
+            self.push_joint::<SPIN>(joint, state, turning, start, task);
         }
         for (row, contact) in self.contacts.iter_mut().zip(contacts) {
             // All of a gap may close in the substep; an overlap is not the velocities' business (see `overlap`).
@@ -109,6 +129,7 @@ impl Pgs {
     /// Solves the grip alone, ahead of a projection, which takes its velocities as given; exact for a free body.
     pub fn solve_grip<const SPIN: bool>(&mut self, world: &World, state: &mut State, task: &Task) {
         self.joints.clear();
+        self.pins.clear();
         self.found.clear();
         self.grip = GripRows::assemble::<SPIN>(world, state, task.h, task.share, DVec2::ZERO);
         self.grip_found = DVec2::ZERO;
@@ -123,11 +144,11 @@ impl Pgs {
         self.found.clear();
         self.found.extend(self.joints.iter().map(|row| row.impulse));
         self.joints.clear();
+        self.pins.clear();
         for joint in joints {
-            for row in joint.rows::<SPIN>(state).into_iter().flatten() {
-                let start = self.found.get(self.joints.len()).copied().unwrap_or(0.0);
-                self.joints.push(JointRow::of::<SPIN>(joint, &row, state, 0.0, start, task));
-            }
+            let found = |row: usize| self.found.get(row).copied().unwrap_or(0.0);
+            let start = DVec2::new(found(self.joints.len()), found(self.joints.len() + 1));
+            self.push_joint::<SPIN>(joint, state, DVec2::ZERO, start, task);
         }
         for row in &mut self.contacts {
             row.wanted_speed = if row.normal_impulse > 0.0 { 0.0 } else { f64::NEG_INFINITY };
@@ -141,26 +162,71 @@ impl Pgs {
             GripRows::assemble::<SPIN>(world, state, task.h, task.share, self.grip_found / (task.share * task.h));
     }
 
+    /// Adds the rows of a joint; `turning` and `start` have an entry for each.
+    fn push_joint<const SPIN: bool>(
+        &mut self,
+        joint: &Joint,
+        state: &State,
+        turning: DVec2,
+        start: DVec2,
+        task: &Task,
+    ) {
+        let [first, second] = joint.rows::<SPIN>(state);
+        if let [Some(x), Some(y)] = [&first, &second] {
+            let inverse = joint.inverse_of_pin::<SPIN>([x, y], state);
+            if inverse[1] != 0.0 {
+                self.pins.push(PinBlock { row: self.joints.len(), inverse });
+            }
+        }
+        self.joints.extend(first.map(|row| JointRow::of::<SPIN>(joint, &row, state, turning.x, start.x, task)));
+        self.joints.extend(second.map(|row| JointRow::of::<SPIN>(joint, &row, state, turning.y, start.y, task)));
+    }
+
+    /// One visit of every joint; returns the largest change of a row's velocity [m/s].
+    fn sweep_joints<const SPIN: bool>(&mut self, state: &mut State) -> f64 {
+        let mut residual: f64 = 0.0;
+        let mut next = 0;
+        for pin in &self.pins {
+            for row in &mut self.joints[next..pin.row] {
+                residual = residual.max(row.solve::<SPIN>(state));
+            }
+            if let [x, y] = &mut self.joints[pin.row..pin.row + 2] {
+                residual = residual.max(pin.solve::<SPIN>(x, y, state));
+            }
+            next = pin.row + 2;
+        }
+        for row in &mut self.joints[next..] {
+            residual = residual.max(row.solve::<SPIN>(state));
+        }
+        residual
+    }
+
     /// Sweeps. Returns their number.
     pub fn solve<const SPIN: bool>(&mut self, state: &mut State, task: &Task) -> u32 {
         if self.rows() == 0 {
             return 0;
         }
         self.start::<SPIN>(state);
-        for _ in 0..task.iterations {
-            let mut residual: f64 = 0.0;
-            for row in &mut self.joints {
-                residual = residual.max(row.solve::<SPIN>(state));
-            }
+        let mut sweeps = 0;
+        while sweeps < task.iterations || sweeps < MORE_SWEEPS * task.iterations && self.lets_through(task.h) {
+            self.residual = self.sweep_joints::<SPIN>(state);
             if let Some(grip) = &mut self.grip {
                 grip.solve::<SPIN>(state);
             }
+            self.closing = 0.0;
             for row in &mut self.contacts {
-                residual = residual.max(solve_contact::<SPIN>(row, state));
+                self.closing = self.closing.max(solve_contact::<SPIN>(row, state));
             }
-            self.residual = residual;
+            self.residual = self.residual.max(self.closing);
+            sweeps += 1;
         }
-        task.iterations
+        sweeps
+    }
+
+    /// Whether bodies are so small that they might change places in `h` seconds, by what the last sweep still changed at a contact.
+    fn lets_through(&self, h: f64) -> bool {
+        let way = THROUGH * self.least_radius;
+        self.gravity * h * h > way && self.closing * h > way
     }
 
     fn start<const SPIN: bool>(&self, state: &mut State) {
@@ -191,8 +257,24 @@ impl Pgs {
     }
 }
 
+impl PinBlock {
+    /// One visit of both rows at once; returns the larger change of their velocities [m/s]. Far outside a small disc the force of each row alone would
+    /// mostly turn the disc, against the other row, and hundreds of visits would be needed.
+    fn solve<const SPIN: bool>(&self, x: &mut JointRow, y: &mut JointRow, state: &mut State) -> f64 {
+        let off = DVec2::new(x.speed::<SPIN>(state) + x.bias, y.speed::<SPIN>(state) + y.bias);
+        let [xx, xy, yy] = self.inverse;
+        let change = -DVec2::new(xx * off.x + xy * off.y, xy * off.x + yy * off.y);
+        for (row, change) in [(x, change.x), (y, change.y)] {
+            row.impulse += change;
+            row.apply::<SPIN>(change, state);
+        }
+        off.abs().max_element()
+    }
+}
+
 impl JointRow {
-    /// `turning` is the row's ½ h J̇v if a drift follows, so that a rigid joint keeps its length through it.
+    /// `turning` is the row's ½ h J̇v if a drift follows: C changes by h (J v + ½ h J̇v) through it. A rigid joint keeps its length, a spring's force
+    /// is that of the length it will have, a damper's that of its mean rate.
     fn of<const SPIN: bool>(
         joint: &Joint,
         row: &Row,
@@ -206,7 +288,7 @@ impl JointRow {
         let one_sided = form.high == 0.0;
         let (softness, bias) = if form.stiffness.is_finite() {
             let soft = h * form.stiffness + form.damping;
-            (1.0 / (task.share * h * soft), row.error * form.stiffness / soft)
+            (1.0 / (task.share * h * soft), row.error * form.stiffness / soft + turning)
         } else if one_sided && row.error < 0.0 {
             (0.0, row.error / h + turning)
         } else {
@@ -227,15 +309,20 @@ impl JointRow {
         }
     }
 
-    /// One visit; returns by how much it changed the row's velocity [m/s].
     #[inline]
-    fn solve<const SPIN: bool>(&mut self, state: &mut State) -> f64 {
+    fn speed<const SPIN: bool>(&self, state: &State) -> f64 {
         let (a, b) = (self.a as usize, self.b as usize);
         let mut speed = self.normal.dot(state.velocity[b] - state.velocity[a]);
         if SPIN {
             speed += self.arm_b * state.omega[b] - self.arm_a * state.omega[a];
         }
-        let wanted = self.impulse - self.mass * (speed + self.bias + self.softness * self.impulse);
+        speed
+    }
+
+    /// One visit; returns by how much it changed the row's velocity [m/s].
+    #[inline]
+    fn solve<const SPIN: bool>(&mut self, state: &mut State) -> f64 {
+        let wanted = self.impulse - self.mass * (self.speed::<SPIN>(state) + self.bias + self.softness * self.impulse);
         let impulse = wanted.clamp(self.low, self.high);
         let change = impulse - self.impulse;
         self.impulse = impulse;

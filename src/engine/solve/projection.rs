@@ -104,24 +104,19 @@ fn project<const SPIN: bool>(
     h: f64,
     force: &mut [DVec2],
 ) -> f64 {
-    let mut largest: f64 = 0.0;
-    let of_joint = &mut force[joint.index as usize];
-    for (axis, multiplier) in [&mut of_joint.x, &mut of_joint.y].into_iter().enumerate() {
-        let Some(row) = joint.rows::<SPIN>(state)[axis] else { break };
-        if joint.form.high == 0.0 && row.error <= 0.0 {
-            break;
+    let rows = joint.rows::<SPIN>(state);
+    let lambda = match &rows {
+        [Some(row), None] if joint.form.high == 0.0 && row.error <= 0.0 => return 0.0,
+        [Some(row), None] => {
+            DVec2::new(part * (aim - row.error) / joint.inverse_effective_mass::<SPIN>(row, state), 0.0)
         }
-        let change = part * (aim - row.error);
-        let lambda = change / joint.inverse_effective_mass::<SPIN>(&row, state);
-        let (a, b) = (joint.a as usize, joint.b as usize);
-        state.position[a] -= state.inverse_mass[a] * lambda * row.normal;
-        state.position[b] += state.inverse_mass[b] * lambda * row.normal;
-        if SPIN {
-            state.angle[a] -= state.inverse_inertia[a] * lambda * row.arm_a;
-            state.angle[b] += state.inverse_inertia[b] * lambda * row.arm_b;
+        [Some(x), Some(y)] => {
+            let [xx, xy, yy] = joint.inverse_of_pin::<SPIN>([x, y], state);
+            -part * DVec2::new(xx * x.error + xy * y.error, xy * x.error + yy * y.error)
         }
-        *multiplier += lambda / (h * h);
-        largest = largest.max(change.abs());
-    }
-    largest
+        _ => return 0.0,
+    };
+    joint.shift::<SPIN>(&rows, lambda, state);
+    force[joint.index as usize] += lambda / (h * h);
+    rows.iter().flatten().map(|row| (part * (aim - row.error)).abs()).fold(0.0, f64::max)
 }
