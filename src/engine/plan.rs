@@ -462,6 +462,8 @@ fn spoken(integrator: Integrator) -> &'static str {
         Integrator::RungeKutta4 => "Runge–Kutta of order 4",
         Integrator::Nystrom4 => "symplectic Nyström of order 4",
         Integrator::Nystrom6 => "symplectic Nyström of order 6",
+        Integrator::Radau3 => "Radau's method of 3 stages",
+        Integrator::Radau5 => "Radau's method of 5 stages",
         _ => integrator.name(),
     }
 }

@@ -12,6 +12,7 @@ pub(crate) mod nystrom;
 pub(crate) mod outcome;
 pub(crate) mod pace;
 mod position_verlet;
+pub(crate) mod radau;
 pub(crate) mod rattle;
 pub(crate) mod rattle_turning;
 pub(crate) mod runge_kutta;
