@@ -7,6 +7,7 @@ use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use crate::engine::impact::Few;
+use crate::engine::integrate::BUDGET;
 use crate::engine::integrate::energy_momentum::EnergyMomentum;
 use crate::engine::integrate::nystrom::Nystrom;
 use crate::engine::integrate::outcome::Outcome;
@@ -158,7 +159,7 @@ impl Islands {
             Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
-            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length),
+            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length, BUDGET),
         };
         (integrator, outcome)
     }

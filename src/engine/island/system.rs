@@ -203,11 +203,11 @@ impl System {
         }
     }
 
-    /// Takes note whether the hold's bound acts now.
-    pub fn see_bound(&mut self) {
-        if let Some(held) = &mut self.held {
-            held.bounded = held.unbounded(&self.nodes).length() > held.most;
-        }
+    /// Takes note whether the hold's bound acts now; returns whether that is news.
+    pub fn see_bound(&mut self) -> bool {
+        let Some(held) = &mut self.held else { return false };
+        let bounded = held.unbounded(&self.nodes).length() > held.most;
+        std::mem::replace(&mut held.bounded, bounded) != bounded
     }
 
     /// Whether nothing but forces acts.
