@@ -20,6 +20,8 @@ const FORCE_LIMIT: f64 = 1.0;
 const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
 const LOCAL: f64 = 0.03;
+/// The same for series, whose estimate is held to it over all steps of a frame together.
+const LOCAL_SERIES: f64 = 0.05;
 /// The same for methods of order 2, whose errors add up more evenly.
 const LOCAL_SECOND: f64 = 0.028;
 
@@ -34,9 +36,9 @@ const FINEST_NYSTROM: f64 = 1e-11;
 const FEW: usize = 128;
 const FEW_WALLS: usize = 512;
 
-/// Loosest accuracy of methods of higher order. Steps of low order gain energy in swings that they hardly resolve, as those of light links
-/// under a heavy load; and it costs little more.
-const LOOSEST_SERIES: f64 = 1e-5;
+/// Loosest accuracy of Nyström's methods and of what free bodies are carried with from event to event, and of series.
+const LOOSEST_LOCAL: f64 = 1e-5;
+const LOOSEST_SERIES: f64 = 1e-3;
 
 /// The decisions for one world under one method.
 #[derive(Debug, Default)]
@@ -198,7 +200,7 @@ impl Plan {
         group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
         let carried = |body: &u32| self.in_island[*body as usize] || self.touches(world, *body);
         let bodies = (0..world.bodies.len() as u32).filter(carried).collect();
-        let tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
+        let tolerance = LOCAL * method.accuracy.min(LOOSEST_LOCAL);
         self.few = Some(FewPlan { bodies, free, tolerance });
         // Nothing else can touch.
         (self.contacts, self.restitution) = (false, false);
@@ -438,9 +440,11 @@ impl IslandPlan {
         let rigid = kinds().filter(|kind| !matches!(kind, Kind::Spring { .. })).count();
         let net = rigid > group.bodies.len() + 1;
         let steps = (!method.automatic).then_some(method.substeps);
-        let series_tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
-        let tolerance =
-            if integrator == Integrator::Rattle { LOCAL_SECOND * method.accuracy } else { series_tolerance };
+        let series_tolerance = LOCAL_SERIES * method.accuracy.min(LOOSEST_SERIES);
+        let tolerance = match integrator {
+            Integrator::Rattle => LOCAL_SECOND * method.accuracy,
+            _ => LOCAL * method.accuracy.min(LOOSEST_LOCAL),
+        };
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
         let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);

@@ -40,8 +40,12 @@ use glam::DVec2;
 /// Orders beyond this gain nothing in double precision.
 const HIGHEST_ORDER: usize = 24;
 const LOWEST_ORDER: usize = 4;
-/// Part of the step that the estimate allows.
-const SAFETY: f64 = 0.9;
+/// Part of the step that the last terms allow, before it is known what steps leave.
+const TRUST: f64 = 0.9;
+/// Part of what is allowed that the terms behind the last may be expected to be.
+const END: f64 = 0.03;
+/// What a step may be wrong by in parts of the shortest rod: what swings fast on a short rod gains energy where it is not followed at all.
+const FINE: f64 = 1e-3;
 /// What rounding leaves of a step, in parts of the farthest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -76,7 +80,8 @@ struct Run {
     rounding: f64,
     budget: u32,
     highest: usize,
-    /// Part of the step that the terms allow: less after one that was taken back.
+    /// The part of the time left that the last terms allow, and how much of that is made use of: as it went in the step before.
+    allowed: f64,
     trust: f64,
     /// The next series goes to the highest order.
     whole: bool,
@@ -115,17 +120,20 @@ impl Taylor {
     /// taken back among them; fails where these do not do.
     pub fn advance(&mut self, system: &mut System, time: f64, tolerance: f64, budget: u32) -> Outcome {
         self.reserve(system);
-        let highest = highest_order(tolerance / system.length);
+        let shortest = system.rods.length.iter().fold(f64::INFINITY, |least, length| length.min(least));
+        let fine = tolerance.min(FINE * shortest);
+        let highest = highest_order(fine / system.length);
         let rounding = ROUNDING * system.nodes.farthest();
         let outcome = Outcome::default();
         let mut run = Run {
             time,
             left: time,
-            tolerance,
+            tolerance: fine,
             rounding,
             budget,
             highest,
-            trust: 1.0,
+            allowed: 1.0,
+            trust: TRUST,
             whole: false,
             events: 0,
             outcome,
@@ -166,7 +174,13 @@ impl Taylor {
         let scale = run.left;
         self.judge.keep(system);
         let order = self.expand(system, run);
-        let mut part = self.step_part(order, run);
+        run.allowed = if order < run.highest && !run.whole { 1.0 } else { self.allowed_part(order, run) };
+        // The time left is cut into equal steps.
+        let mut part = if run.allowed >= 1.0 && run.trust >= TRUST {
+            1.0
+        } else {
+            1.0 / libm::ceil(1.0 / (run.trust * run.allowed))
+        };
         if !(part > 0.0) {
             return false;
         }
@@ -245,17 +259,21 @@ impl Taylor {
         }
     }
 
-    /// All coefficients from the third on; returns the order at which to stop.
+    /// All coefficients from the third on; returns the order at which to stop: where the terms behind it, should they go on to shrink as
+    /// those before, are a fraction of what the rest of the time may be wrong by.
     fn expand(&mut self, system: &mut System, run: &Run) -> usize {
-        let mut before = self.last_term(2);
-        let small = run.share(1.0);
+        let enough = END * run.share(1.0);
+        // Of the last four orders; in pairs, as every second one may vanish.
+        let mut terms = [0.0, 0.0, 0.0, self.last_term(2)];
         for order in 3..=run.highest {
             self.coefficient(system, run.left, order - 2);
-            let term = self.last_term(order);
-            if order >= LOWEST_ORDER && term <= small && before <= small && !run.whole {
+            terms = [terms[1], terms[2], terms[3], self.last_term(order)];
+            let (before, last) = (terms[0].max(terms[1]), terms[2].max(terms[3]));
+            // last · √(last/before)
+            let shrinks = last <= before && last * last * last <= enough * enough * before;
+            if order >= LOWEST_ORDER && (last <= enough || shrinks && order > LOWEST_ORDER) && !run.whole {
                 return order;
             }
-            before = term;
         }
         run.highest
     }
@@ -266,8 +284,8 @@ impl Taylor {
         largest(&self.x[order]).max(largest(&self.y[order])).max(self.turning.last_term(order))
     }
 
-    /// The part of the time scale that the last two terms allow; the time left is cut into equal steps.
-    fn step_part(&self, order: usize, run: &Run) -> f64 {
+    /// The part of the time scale that the last two terms allow.
+    fn allowed_part(&self, order: usize, run: &Run) -> f64 {
         let allowed = |order: usize| {
             let term = self.last_term(order);
             if term <= run.share(1.0) {
@@ -277,8 +295,7 @@ impl Taylor {
             let part = libm::pow(run.share(1.0) / term, 1.0 / (order - 1) as f64);
             part.max(libm::pow(run.rounding / term, 1.0 / order as f64))
         };
-        let allowed = allowed(order).min(allowed(order - 1));
-        if allowed >= 1.0 && run.trust >= 1.0 { 1.0 } else { 1.0 / libm::ceil(1.0 / (SAFETY * run.trust * allowed)) }
+        allowed(order).min(allowed(order - 1))
     }
 
     /// Positions, velocities and multipliers at `part` of the time scale.

@@ -10,8 +10,11 @@ use crate::engine::island::System;
 
 /// A step that is taken back grows shorter by at least the first, by at most the second.
 const SHRINK: [f64; 2] = [0.7, 0.1];
-/// How fast trust comes back.
-const GROWTH: f64 = 1.1;
+/// Part of the step that would be just as wrong as allowed.
+const SAFETY: f64 = 0.85;
+/// How fast trust in the terms grows from step to step, and the most.
+const GROWTH: f64 = 1.25;
+const MOST_TRUST: f64 = 2.0;
 /// Where the defect is smaller than this part of the farthest coordinate over h², and shrinks no faster with the step than rounding
 /// does, there is nothing to gain from smaller steps.
 const NOISE: f64 = 1e-12;
@@ -94,7 +97,10 @@ impl Judge {
         let before = self.refused.take();
         if error <= share || self.is_noise(error, (order, part), before, run) {
             run.whole = false;
-            run.trust = (run.trust * GROWTH).min(1.0);
+            let longer = libm::pow(share / error.max(1e-3 * share), 1.0 / order as f64);
+            let trust = SAFETY * longer * part / run.allowed;
+            // Never less than it was for a step that was taken: where rounding is all that is left, steps would only shrink.
+            run.trust = trust.clamp(run.trust.min(super::TRUST), run.trust * GROWTH).min(MOST_TRUST);
             return Verdict::Taken;
         }
         if order < run.highest && !run.whole {
