@@ -30,13 +30,15 @@ fn hashes(name: &str, change: impl Fn(Method) -> Method, steps: u32) -> [u64; 2]
 }
 
 /// What carries islands whole.
-const DIRECT: [Integrator; 6] = [
+const DIRECT: [Integrator; 8] = [
     Integrator::Taylor,
     Integrator::EnergyMomentum,
     Integrator::Rattle,
     Integrator::RungeKutta4,
     Integrator::Nystrom4,
     Integrator::Nystrom6,
+    Integrator::Radau3,
+    Integrator::Radau5,
 ];
 
 /// Both hashes of all shipped scenes, and of those with a truth as islands, computed one after another.

@@ -26,11 +26,15 @@ pub enum Integrator {
     /// Symplectic Runge–Kutta–Nyström methods for islands of springs without dampers.
     Nystrom4,
     Nystrom6,
+    /// Radau's implicit collocation with the constraints among its equations: order 5, damps what it cannot follow.
+    Radau3,
+    /// The same with five stages: order 9.
+    Radau5,
 }
 
 impl Integrator {
     /// All of them, in the order in which they are listed to a user.
-    pub const ALL: [Integrator; 10] = [
+    pub const ALL: [Integrator; 12] = [
         Integrator::ExplicitEuler,
         Integrator::SemiImplicitEuler,
         Integrator::PositionVerlet,
@@ -41,6 +45,8 @@ impl Integrator {
         Integrator::RungeKutta4,
         Integrator::Nystrom4,
         Integrator::Nystrom6,
+        Integrator::Radau3,
+        Integrator::Radau5,
     ];
 
     /// Those that go through the substep loop, with a solver.
@@ -64,6 +70,8 @@ impl Integrator {
             Integrator::RungeKutta4 => "Runge–Kutta of order 4",
             Integrator::Nystrom4 => "Symplectic Nyström of order 4",
             Integrator::Nystrom6 => "Symplectic Nyström of order 6",
+            Integrator::Radau3 => "Radau IIA, 3 stages",
+            Integrator::Radau5 => "Radau IIA, 5 stages",
         }
     }
 
@@ -80,6 +88,8 @@ impl Integrator {
             Integrator::RungeKutta4 => "runge-kutta-4",
             Integrator::Nystrom4 => "nystrom-4",
             Integrator::Nystrom6 => "nystrom-6",
+            Integrator::Radau3 => "radau-3",
+            Integrator::Radau5 => "radau-5",
         }
     }
 

@@ -21,6 +21,8 @@ const FORCE_LIMIT: f64 = 1.0;
 const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
 const LOCAL: f64 = 0.03;
+/// The same for series, whose estimate is held to it over all steps of a frame together.
+const LOCAL_SERIES: f64 = 0.05;
 /// The same for methods of order 2, whose errors add up more evenly.
 const LOCAL_SECOND: f64 = 0.028;
 
@@ -33,9 +35,9 @@ const FINEST_NYSTROM: f64 = 1e-11;
 /// Walls with which free bodies are carried from event to event: each is looked at for each body.
 const MOST_WALLS: usize = 512;
 
-/// Loosest accuracy of methods of higher order. Steps of low order gain energy in swings that they hardly resolve, as those of light links
-/// under a heavy load; and it costs little more.
-const LOOSEST_SERIES: f64 = 1e-5;
+/// Loosest accuracy of Nyström's methods and of what free bodies are carried with from event to event, and of series.
+const LOOSEST_LOCAL: f64 = 1e-5;
+const LOOSEST_SERIES: f64 = 1e-3;
 
 /// The decisions for one world under one method.
 #[derive(Debug, Default)]
@@ -182,7 +184,7 @@ impl Plan {
     /// Gives free bodies to the stage that carries them from event to event.
     fn carry_few(&mut self, world: &World, method: &Method, group: Group) {
         group.bodies.iter().for_each(|body| self.in_island[*body as usize] = true);
-        let tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
+        let tolerance = LOCAL * method.accuracy.min(LOOSEST_LOCAL);
         self.few = Some(FewPlan { bodies: group.bodies, tolerance });
         // Whether anything that is left can be pushed by what it touches.
         let left = |body: u32| !self.in_island[body as usize] && world.bodies.inverse_mass[body as usize] > 0.0;
@@ -450,9 +452,11 @@ impl IslandPlan {
         let rigid = kinds().filter(|kind| !matches!(kind, Kind::Spring { .. })).count();
         let net = rigid > group.bodies.len() + 1;
         let steps = (!method.automatic).then_some(method.substeps);
-        let series_tolerance = LOCAL * method.accuracy.min(LOOSEST_SERIES);
-        let tolerance =
-            if integrator == Integrator::Rattle { LOCAL_SECOND * method.accuracy } else { series_tolerance };
+        let series_tolerance = LOCAL_SERIES * method.accuracy.min(LOOSEST_SERIES);
+        let tolerance = match integrator {
+            Integrator::Rattle => LOCAL_SECOND * method.accuracy,
+            _ => LOCAL * method.accuracy.min(LOOSEST_LOCAL),
+        };
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
         let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);
@@ -474,6 +478,8 @@ fn spoken(integrator: Integrator) -> &'static str {
         Integrator::RungeKutta4 => "Runge–Kutta of order 4",
         Integrator::Nystrom4 => "symplectic Nyström of order 4",
         Integrator::Nystrom6 => "symplectic Nyström of order 6",
+        Integrator::Radau3 => "Radau's method of 3 stages",
+        Integrator::Radau5 => "Radau's method of 5 stages",
         _ => integrator.name(),
     }
 }

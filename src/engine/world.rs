@@ -1,7 +1,7 @@
 //! The state that a step reads and writes.
 
 use super::body::{Bodies, Body, Motion, NO_ROTOR};
-use super::constraint::{Anchor, Constraint, Constraints, Grip, Kind, WORLD};
+use super::constraint::{Anchor, Constraint, Constraints, Foresight, Grip, Kind, WORLD};
 use super::error::{EngineError, check, check_point};
 use super::id::{Id, find};
 use super::shape::Wall;
@@ -379,6 +379,7 @@ impl World {
         c.at_b.push(at_b);
         c.force.push(DVec2::ZERO);
         c.carried.push(false);
+        c.foresight.push(Foresight::default());
         Ok(id)
     }
 
@@ -492,6 +493,7 @@ impl World {
         retain(&mut c.at_b, keep);
         retain(&mut c.force, keep);
         retain(&mut c.carried, keep);
+        retain(&mut c.foresight, keep);
     }
 
     /// Whether body `index` is pushed by anything.

@@ -17,7 +17,7 @@ pub enum Family {
 
 impl Family {
     /// All of them, in the order in which they are listed to a user.
-    pub const ALL: [Family; 15] = [
+    pub const ALL: [Family; 17] = [
         Family::Dial,
         Family::Direct(Integrator::Taylor),
         Family::Direct(Integrator::EnergyMomentum),
@@ -25,6 +25,8 @@ impl Family {
         Family::Direct(Integrator::RungeKutta4),
         Family::Direct(Integrator::Nystrom4),
         Family::Direct(Integrator::Nystrom6),
+        Family::Direct(Integrator::Radau3),
+        Family::Direct(Integrator::Radau5),
         Family::Substepped(Integrator::SemiImplicitEuler, Solver::Pgs),
         Family::Substepped(Integrator::SemiImplicitEuler, Solver::Projection),
         Family::Substepped(Integrator::VelocityVerlet, Solver::Pgs),

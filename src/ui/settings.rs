@@ -163,6 +163,9 @@ pub fn integrator_help(integrator: Integrator) -> &'static str {
         Integrator::Nystrom6 => {
             "Islands of springs without dampers: eleven force evaluations a step. Order 6, symplectic."
         }
+        Integrator::Radau3 | Integrator::Radau5 => {
+            "Whole islands that nothing can touch, stiff or damped ones too: implicit collocation. Order 5 or 9; damps what it cannot follow."
+        }
         Integrator::EnergyMomentum => {
             "Whole islands that nothing can touch, one or more solves a step. Order 2; keeps energy and both momenta exactly."
         }

@@ -55,6 +55,35 @@ fn runge_kutta_is_of_order_four_on_every_truth_scene() {
 }
 
 #[test]
+fn radaus_methods_are_of_order_five_and_nine_where_the_motion_is_resolved() {
+    // Ropes and nets of rods, springs in a row and as a cloth: from where all modes are resolved to where rounding sets in.
+    for (name, three, five) in [
+        ("truth/pendulum", 1, None),
+        ("truth/double_pendulum", 1, None),
+        ("truth/rigid_net", 1, Some(1)),
+        ("truth/stiff_chain", 2, Some(1)),
+        ("truth/bridge", 2, None),
+        ("truth/cloth", 8, Some(4)),
+    ] {
+        converges(name, Integrator::Radau3, three, 5.0);
+        if let Some(substeps) = five {
+            converges(name, Integrator::Radau5, substeps, 9.0);
+        }
+    }
+}
+
+#[test]
+fn radaus_method_of_five_stages_meets_round_off_on_truth_scenes() {
+    for (name, substeps) in
+        [("truth/pendulum", 1), ("truth/double_pendulum", 2), ("truth/bridge", 4), ("truth/rigid_net", 2)]
+    {
+        let (found, violation) = error(name, Integrator::Radau5, substeps);
+        println!("{name}, {substeps} a step: {found:.1e}, violation {violation:.1e} m");
+        assert!(found < 1e-11, "{name}: {found:e}");
+    }
+}
+
+#[test]
 fn nystroms_methods_are_of_order_four_and_six_on_springs() {
     for name in SPRINGS {
         // From where the steps are no longer cut for stability to where rounding sets in.

@@ -136,6 +136,15 @@ pub struct Constraints {
     pub force: Vec<DVec2>,
     /// Carried whole with its island in the last step: `force` is then that of an instant, and no start for sweeps.
     pub(crate) carried: Vec<bool>,
+    /// What its island found in the last step about the steps to come.
+    pub(crate) foresight: Vec<Foresight>,
+}
+
+/// What an island found in a step about those to come, so that a fresh stepper goes on as the old one would.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Foresight {
+    /// Parts that an implicit method cut the step into; 0 if none did.
+    pub parts: f64,
 }
 
 impl Constraints {

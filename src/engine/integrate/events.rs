@@ -10,7 +10,7 @@ use glam::DVec2;
 /// Samples within a step.
 const SAMPLES: u32 = 8;
 /// A rope that was just let go is at its length but for rounding; it tightens anew only beyond this part of L².
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 
 /// What happens, to which rope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +91,7 @@ fn value(series: &[Vec<f64>], i: usize, t: f64) -> f64 {
 }
 
 /// The first instant in (0, `until`] at which `sign` turns positive.
-fn first_change(sign: impl Fn(f64) -> f64, until: f64) -> Option<f64> {
+pub(super) fn first_change(sign: impl Fn(f64) -> f64, until: f64) -> Option<f64> {
     let mut low = 0.0;
     for sample in 1..=SAMPLES {
         let mut high = until * f64::from(sample) / f64::from(SAMPLES);

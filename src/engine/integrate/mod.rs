@@ -12,6 +12,7 @@ pub(crate) mod nystrom;
 pub(crate) mod outcome;
 pub(crate) mod pace;
 mod position_verlet;
+pub(crate) mod radau;
 pub(crate) mod rattle;
 pub(crate) mod rattle_turning;
 pub(crate) mod runge_kutta;
@@ -27,9 +28,11 @@ use super::plan::Plan;
 use super::state::State;
 use super::world::World;
 
-/// Most steps of an island in one call. What needs more does not run in real time, and is left to a method that damps what it
-/// cannot follow.
+/// Most steps of an island in one call. What needs more does not run in real time, and is left to a method that does not have to
+/// follow all that is fast.
 const MOST_STEPS: f64 = 1000.0;
+/// The same as a budget that is handed in.
+pub(crate) const BUDGET: u32 = MOST_STEPS as u32;
 
 /// What an integrator needs to know of the scene in a substep.
 pub(crate) struct Scene<'a> {

@@ -114,7 +114,10 @@ impl Nystrom {
                     }
                 }
             }
-            let Some(more) = more else { return outcome };
+            let Some(more) = more else {
+                outcome.kept = pace.keeps(outcome.error);
+                return outcome;
+            };
             changes += 1;
             steps = more.min(super::MOST_STEPS);
             restore(&self.start, system, &mut self.ax, &mut self.ay);

@@ -4,7 +4,7 @@
 const MOST_HALVINGS: u32 = 10;
 
 /// What an integrator says of the time it carried an island through.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Outcome {
     /// Steps taken, and those taken back.
     pub steps: u32,
@@ -17,6 +17,14 @@ pub(crate) struct Outcome {
     pub failed: bool,
     /// Nothing was done, as an implicit method would do it in fewer steps.
     pub stiff: bool,
+    /// The estimate is within what was asked for; true as well where nothing was.
+    pub kept: bool,
+}
+
+impl Default for Outcome {
+    fn default() -> Outcome {
+        Outcome { steps: 0, retries: 0, order: 0, error: 0.0, failed: false, stiff: false, kept: true }
+    }
 }
 
 /// One step of `whole` seconds, in parts where it has to be: `step` says whether a step of so many seconds went well, and

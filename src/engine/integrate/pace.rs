@@ -10,7 +10,17 @@ pub(crate) enum Pace {
 }
 
 /// Errors are estimates: a little too large is let pass.
-const SLACK: f64 = 1.5;
+pub(super) const SLACK: f64 = 1.5;
+
+impl Pace {
+    /// Whether an estimate [m] is within what is asked for; NaN is not.
+    pub fn keeps(self, error: f64) -> bool {
+        match self {
+            Pace::Steps(_) => true,
+            Pace::Within(tolerance) => error <= SLACK * tolerance,
+        }
+    }
+}
 
 /// The steps to take instead of `steps`, where the local errors' sum is `excess` times what is allowed and falls with the power
 /// `order` of the number of steps; none if they will do.

@@ -106,6 +106,7 @@ impl Rattle {
                 Run::Done(error) => {
                     outcome.steps = steps as u32;
                     outcome.error = error;
+                    outcome.kept = pace.keeps(error);
                     return outcome;
                 }
                 Run::Again(more) => (steps, changes) = (more.min(super::MOST_STEPS), changes + 1),

@@ -113,6 +113,7 @@ impl RattleTurning {
                 Run::Done(error) => {
                     outcome.steps = steps as u32;
                     outcome.error = error;
+                    outcome.kept = pace.keeps(error);
                     return outcome;
                 }
                 Run::Again(more) => (steps, changes) = (more, changes + 1),

@@ -6,6 +6,7 @@
 
 pub(crate) mod accelerations;
 pub(crate) mod forces;
+pub(crate) mod forest;
 pub(crate) mod lanes;
 pub(crate) mod linear;
 pub(crate) mod matrix;

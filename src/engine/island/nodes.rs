@@ -39,6 +39,14 @@ impl Nodes {
         largest.value()
     }
 
+    /// Largest coordinate [m]; NaN if one of them is.
+    pub fn farthest(&self) -> f64 {
+        let mut largest = Largest::default();
+        largest.take_sizes(&self.x);
+        largest.take_sizes(&self.y);
+        largest.value()
+    }
+
     /// Width and height of the box around all nodes [m].
     pub fn extent(&self) -> [f64; 2] {
         [&self.x, &self.y].map(|values| {
@@ -57,11 +65,8 @@ impl Nodes {
 
     /// Whether all nodes are where numbers mean something, their coordinates within `far` [m] and `fast` [m/s].
     pub fn within(&self, far: f64, fast: f64) -> bool {
-        let mut distance = Largest::default();
-        distance.take_sizes(&self.x);
-        distance.take_sizes(&self.y);
         // Written so that a NaN is out of range.
-        distance.value() <= far && self.fastest() <= fast
+        self.farthest() <= far && self.fastest() <= fast
     }
 
     /// x, y, vx, vy.

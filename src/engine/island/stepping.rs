@@ -7,10 +7,12 @@ use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use crate::engine::impact::{Fared, Few};
+use crate::engine::integrate::BUDGET;
 use crate::engine::integrate::energy_momentum::EnergyMomentum;
 use crate::engine::integrate::nystrom::Nystrom;
 use crate::engine::integrate::outcome::Outcome;
 use crate::engine::integrate::pace::Pace;
+use crate::engine::integrate::radau::{self, Radau};
 use crate::engine::integrate::rattle::Rattle;
 use crate::engine::integrate::rattle_turning::RattleTurning;
 use crate::engine::integrate::runge_kutta::RungeKutta;
@@ -31,6 +33,7 @@ pub(crate) struct Islands {
     nystrom: Nystrom,
     /// By island: it keeps the order in which the island is eliminated.
     energy_momentum: Vec<EnergyMomentum>,
+    radau: Vec<Radau>,
     surroundings: Surroundings,
     /// Free bodies that can touch, if the plan has them carried; after the islands.
     few: Few,
@@ -45,6 +48,8 @@ impl Islands {
         self.given_up.clear();
         self.energy_momentum.clear();
         self.energy_momentum.resize_with(plan.islands.len(), EnergyMomentum::default);
+        self.radau.clear();
+        self.radau.resize_with(plan.islands.len(), Radau::default);
         for plan in &plan.islands {
             let system = System::new(world, &plan.group.bodies, &plan.group.constraints, plan.linear);
             if system.turns() {
@@ -145,12 +150,22 @@ impl Islands {
             }
             integrator = Integrator::EnergyMomentum;
         }
+        let foresight = plan.group.constraints.first().map(|i| world.constraints.foresight[*i as usize]);
+        let foresight = foresight.unwrap_or_default();
         let outcome = match integrator {
+            Integrator::Radau3 | Integrator::Radau5 if Radau::takes(system) => {
+                let member = if integrator == Integrator::Radau3 { radau::Member::Three } else { radau::Member::Five };
+                let parts = (foresight.parts > 0.0).then_some(foresight.parts);
+                let task = radau::Task { pace, member, parts, most: 512.0 };
+                let (outcome, parts) = self.radau[index].advance(system, time, &task);
+                system.foresight.parts = parts;
+                outcome
+            }
             Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, pace),
             Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
-            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length),
+            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length, BUDGET),
         };
         (integrator, outcome)
     }
@@ -182,6 +197,7 @@ impl Islands {
             system.store(world);
             for constraint in &self.islands[index].0.group.constraints {
                 world.constraints.carried[*constraint as usize] = true;
+                world.constraints.foresight[*constraint as usize] = system.foresight;
             }
         }
     }

@@ -9,7 +9,7 @@ use super::forces::{Held, Springs};
 use super::matrix::Matrix;
 use super::pairs::{self, Pairs};
 use super::turning::Turning;
-use crate::engine::constraint::{Kind, WORLD};
+use crate::engine::constraint::{Foresight, Kind, WORLD};
 use crate::engine::method::LinearSolver;
 use crate::engine::world::World;
 use glam::DVec2;
@@ -58,6 +58,8 @@ pub(crate) struct System {
     /// [1/s]
     pub drag: f64,
     pub held: Option<Held>,
+    /// What was found about the steps to come.
+    pub foresight: Foresight,
     /// Size of the island at the start of the step [m]: errors are measured in parts of it.
     pub length: f64,
     /// The longest rod [m].
@@ -201,11 +203,11 @@ impl System {
         }
     }
 
-    /// Takes note whether the hold's bound acts now.
-    pub fn see_bound(&mut self) {
-        if let Some(held) = &mut self.held {
-            held.bounded = held.unbounded(&self.nodes).length() > held.most;
-        }
+    /// Takes note whether the hold's bound acts now; returns whether that is news.
+    pub fn see_bound(&mut self) -> bool {
+        let Some(held) = &mut self.held else { return false };
+        let bounded = held.unbounded(&self.nodes).length() > held.most;
+        std::mem::replace(&mut held.bounded, bounded) != bounded
     }
 
     /// Whether nothing but forces acts.

@@ -6,6 +6,7 @@
 //!   singular values
 //! - [`iterative`]: Jacobi, Gauss-Seidel, projected Gauss-Seidel, conjugate gradients, with the history of their residuals
 
+pub(crate) mod complex;
 pub mod dense;
 pub mod iterative;
 pub mod sparse;

@@ -25,6 +25,8 @@ pub fn letter(family: Family) -> char {
         Family::Direct(Rattle) => 'r',
         Family::Direct(RungeKutta4) => 'k',
         Family::Direct(Nystrom4) => 'n',
+        Family::Direct(Radau3) => 'u',
+        Family::Direct(Radau5) => 'd',
         Family::Direct(_) => 'y',
         Family::Substepped(SemiImplicitEuler, Solver::Pgs) => 's',
         Family::Substepped(SemiImplicitEuler, Solver::Projection) => 'e',
@@ -47,6 +49,8 @@ pub fn look(family: Family) -> (Shape, bool, usize) {
         Family::Direct(Rattle) => (Shape::Up, true, 3),
         Family::Direct(RungeKutta4) => (Shape::Down, true, 4),
         Family::Direct(Nystrom4) => (Shape::Plus, true, 5),
+        Family::Direct(Radau3) => (Shape::Square, true, 6),
+        Family::Direct(Radau5) => (Shape::Diamond, true, 6),
         Family::Direct(_) => (Shape::Cross, true, 5),
         Family::Substepped(integrator, solver) => {
             let shape = if solver == Solver::Pgs { Shape::Circle } else { Shape::Square };

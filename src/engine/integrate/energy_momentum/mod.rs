@@ -81,6 +81,7 @@ impl EnergyMomentum {
         loop {
             let mut outcome = self.run(system, time, steps, (pace, tight));
             outcome.retries += changes;
+            outcome.kept = pace.keeps(outcome.error);
             let Pace::Within(tolerance) = pace else { return outcome };
             let more = steps_within(f64::from(steps), outcome.error / tolerance, 2.0);
             let Some(more) = more.filter(|_| !outcome.failed && changes < MOST_CHANGES) else { return outcome };

@@ -18,19 +18,8 @@
 use super::discrete::{self, Linear};
 use super::{Progress, TURN};
 use crate::engine::island::System;
+use crate::engine::island::forest::{self, Forest, Join, NONE, Tie};
 use glam::DVec2;
-
-const NONE: u32 = u32::MAX;
-
-/// What holds a node to its parent.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum Join {
-    /// Nothing, or springs.
-    #[default]
-    Free,
-    Rod,
-    Pin,
-}
 
 /// A node and its link to the parent, differences taken from the parent to the node.
 #[derive(Clone, Copy, Debug, Default)]
@@ -132,14 +121,6 @@ impl Carry {
     }
 }
 
-/// A constraint beside the springs, by the node's link.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Tie {
-    join: Join,
-    /// Index of the rod or pin.
-    index: u32,
-}
-
 /// The tree of an island and the unknowns of a step.
 #[derive(Debug, Default)]
 pub(super) struct Tree {
@@ -160,96 +141,28 @@ pub(super) struct Tree {
     h: f64,
 }
 
-/// The other end of an edge of the island's graph, and what it is.
-#[derive(Clone, Copy)]
-struct Edge {
-    to: u32,
-    tie: Tie,
-}
-
 impl Tree {
     /// The tree of an island, or none if rods or springs close loops.
     pub fn new(system: &System) -> Option<Tree> {
-        let edges = edges(system);
+        let forest = Forest::new(system)?;
         let mut tree = Tree::default();
-        let mut place = vec![NONE; system.nodes.len()];
-        let movable = |node: u32| system.nodes.w[node as usize] > 0.0;
-        let anchored = |node: &u32| edges[*node as usize].iter().any(|e| !movable(e.to) && e.tie.join != Join::Free);
-        let nodes = || (0..system.nodes.len() as u32).filter(|node| movable(*node));
-        let end = |node: &u32| edges[*node as usize].len() <= 1;
-        // Roots by preference: held by a fixed point, the end of a chain, any.
-        for root in nodes().filter(anchored).chain(nodes().filter(end)).chain(nodes()) {
-            if place[root as usize] == NONE {
-                tree.grow(system, &edges, root, &mut place)?;
-            }
+        for (node, parent) in forest.node.iter().zip(&forest.parent) {
+            let mass = 1.0 / system.nodes.w[*node as usize];
+            tree.links.push(Link { parent: *parent, mass, ..Link::default() });
         }
-        tree.place_springs(system, &place);
-        let follows = |(t, link): (usize, &Link)| link.parent == NONE || link.parent as usize + 1 == t;
-        if !tree.links.iter().enumerate().all(follows) {
-            tree.branches = vec![Carry::default(); tree.links.len()];
-            tree.moved = vec![[0.0; 4]; tree.links.len()];
+        if forest.branched {
+            tree.branches = vec![Carry::default(); forest.len()];
+            tree.moved = vec![[0.0; 4]; forest.len()];
         }
-        tree.loose = vec![Loose::default(); tree.links.len()];
-        tree.extras = vec![Extra::default(); tree.links.len()];
+        tree.loose = vec![Loose::default(); forest.len()];
+        tree.extras = vec![Extra::default(); forest.len()];
+        let place =
+            |p: &forest::SpringPlace| SpringPlace { spring: p.spring, at: p.at, ground: p.ground, dx: 0.0, dy: 0.0 };
+        tree.springs = forest.springs.iter().map(place).collect();
+        let closing = |c: forest::Closing| Closing { rod: c.rod, at: c.at, ground: c.ground, ..Closing::default() };
+        tree.closing = forest.closing.map(closing);
+        (tree.node, tree.parent_node, tree.tie) = (forest.node, forest.parent_node, forest.tie);
         Some(tree)
-    }
-
-    /// Adds the component of `root`.
-    fn grow(&mut self, system: &System, edges: &[Vec<Edge>], root: u32, place: &mut [u32]) -> Option<()> {
-        let movable = |node: u32| system.nodes.w[node as usize] > 0.0;
-        let mut stack = vec![(root, NONE, Tie::default())];
-        let mut rooted = false;
-        while let Some((node, from, tie)) = stack.pop() {
-            let at = self.node.len() as u32;
-            if place[node as usize] != NONE {
-                return None;
-            }
-            place[node as usize] = at;
-            self.node.push(node);
-            self.parent_node.push(from);
-            self.tie.push(tie);
-            let parent = if from == NONE { NONE } else { place[from as usize] };
-            let mass = 1.0 / system.nodes.w[node as usize];
-            self.links.push(Link { parent, mass, ..Link::default() });
-            let mut seen_parent = from == NONE;
-            for edge in &edges[node as usize] {
-                if movable(edge.to) {
-                    if edge.to == from && !seen_parent {
-                        seen_parent = true;
-                        continue;
-                    }
-                    if place[edge.to as usize] != NONE {
-                        return None;
-                    }
-                    stack.push((edge.to, node, edge.tie));
-                } else if edge.tie.join != Join::Free {
-                    if node == root && !rooted {
-                        rooted = true;
-                        self.parent_node[at as usize] = edge.to;
-                        self.tie[at as usize] = edge.tie;
-                    } else if edge.tie.join == Join::Rod && self.closing.is_none() {
-                        let rod = edge.tie.index;
-                        self.closing = Some(Closing { rod, at, ground: edge.to, ..Closing::default() });
-                    } else {
-                        return None;
-                    }
-                }
-            }
-        }
-        Some(())
-    }
-
-    fn place_springs(&mut self, system: &System, place: &[u32]) {
-        for (spring, (a, b)) in system.springs.a.iter().zip(&system.springs.b).enumerate() {
-            let (pa, pb) = (place[*a as usize], place[*b as usize]);
-            let (at, ground) = match (pa, pb) {
-                (NONE, NONE) => continue,
-                (at, NONE) => (at, *b),
-                (NONE, at) => (at, *a),
-                (pa, pb) => (pa.max(pb), NONE),
-            };
-            self.springs.push(SpringPlace { spring: spring as u32, at, ground, dx: 0.0, dy: 0.0 });
-        }
     }
 
     /// Solves for a step of `h` seconds; the island is left as it is.
@@ -615,28 +528,4 @@ fn add(to: &mut Linear, more: Linear) {
     to.fx += more.fx;
     to.fy += more.fy;
     to.k.iter_mut().zip(more.k).for_each(|(to, more)| *to += more);
-}
-
-/// By node, what joins it to which others: one edge for all springs and the rod or pin that lie between the same two nodes, but
-/// two for two rods.
-fn edges(system: &System) -> Vec<Vec<Edge>> {
-    let mut edges: Vec<Vec<Edge>> = vec![Vec::new(); system.nodes.len()];
-    let mut add = |a: u32, b: u32, tie: Tie| {
-        for (from, to) in [(a, b), (b, a)] {
-            let known = edges[from as usize].iter().any(|edge| edge.to == to);
-            if tie.join != Join::Free || !known {
-                edges[from as usize].push(Edge { to, tie });
-            }
-        }
-    };
-    for (index, (a, b)) in system.rods.a.iter().zip(&system.rods.b).enumerate() {
-        add(*a, *b, Tie { join: Join::Rod, index: index as u32 });
-    }
-    for (index, (a, b)) in system.pins.a.iter().zip(&system.pins.b).enumerate() {
-        add(*a, *b, Tie { join: Join::Pin, index: index as u32 });
-    }
-    for (a, b) in system.springs.a.iter().zip(&system.springs.b) {
-        add(*a, *b, Tie::default());
-    }
-    edges
 }

@@ -9,7 +9,9 @@
 //! the centre plus α_k ⊥e₀ plus what is known, so A = J M⁻¹ Jᵀ with the arms of the start is the matrix of all orders. An anchor's
 //! coefficients stand among those of the nodes, so rods, springs and the hold take them as they take any other's.
 
-use super::{HIGHEST_ORDER, Taylor, horner, horner_rate};
+use super::judge::largest_difference;
+use super::polynomial::{horner, horner_rate, horner_second};
+use super::{Taylor, room};
 use crate::engine::island::System;
 
 /// Coefficients by order, then by rotor or arm.
@@ -31,6 +33,8 @@ pub(super) struct TurningSeries {
     /// By rotor: torque, then angular acceleration.
     alpha: Vec<f64>,
     radius: Vec<f64>,
+    /// By rotor: angular acceleration as the polynomial has it at the end of a step.
+    expected: Vec<f64>,
 }
 
 impl TurningSeries {
@@ -41,10 +45,6 @@ impl TurningSeries {
             return;
         }
         let (rotors, arms) = (system.turning.rotors.angle.len(), system.turning.arms.x.len());
-        let room = |series: &mut Vec<Vec<f64>>, n: usize| {
-            series.resize_with(HIGHEST_ORDER + 1, Vec::new);
-            series.iter_mut().for_each(|values| values.resize(n, 0.0));
-        };
         for series in [&mut self.angle, &mut self.cos, &mut self.sin] {
             room(series, rotors);
         }
@@ -53,6 +53,7 @@ impl TurningSeries {
         }
         self.torque.resize(arms, 0.0);
         self.alpha.resize(rotors, 0.0);
+        self.expected.resize(rotors, 0.0);
         self.radius.clone_from(&system.turning.rotors.radius);
     }
 
@@ -79,6 +80,24 @@ impl TurningSeries {
             .iter()
             .zip(&self.radius)
             .fold(0.0f64, |most, (angle, radius)| most.max((angle * radius).abs()))
+    }
+
+    /// Takes the second derivatives of the angles at `part` of the time scale.
+    pub fn expect(&mut self, order: usize, part: f64, scale: f64) {
+        if self.active {
+            horner_second(&self.angle, order, part, scale, &mut self.expected);
+        }
+    }
+
+    /// Largest difference of the rims' accelerations from what was expected [m/s²], coefficient 2 of the angles being known there.
+    pub fn defect(&self, scale: f64) -> f64 {
+        if !self.active {
+            return 0.0;
+        }
+        let differences = self.expected.iter().zip(&self.angle[2]).zip(&self.radius);
+        differences.fold(0.0f64, |most, ((expected, angle), radius)| {
+            most.max(radius * largest_difference(std::slice::from_ref(expected), std::slice::from_ref(angle), scale))
+        })
     }
 
     /// Angles, angular velocities and with them the anchors at `part` of the time scale.

@@ -31,6 +31,7 @@ pub mod block_tridiagonal;
 mod blocks;
 pub mod chain;
 mod chordal;
+pub(crate) mod complex_ldl;
 mod graph;
 mod numeric;
 mod ordering;
@@ -62,7 +63,7 @@ pub struct Ldl {
     pivots: Vec<f64>,
     lower: Vec<f64>,
     symbolic: Symbolic,
-    numeric: Numeric,
+    numeric: Numeric<f64>,
     general_rows: usize,
     /// A vector in the order of elimination; the residual.
     gathered: Vec<f64>,

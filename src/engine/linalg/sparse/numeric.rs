@@ -9,20 +9,47 @@
 
 use super::pivots::Pivots;
 use super::symbolic::{BlockRow, Supernode, Symbolic};
+use crate::engine::linalg::complex::Complex;
+use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
+
+/// What a matrix is made of.
+pub(super) trait Scalar:
+    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + AddAssign + SubAssign
+{
+    /// 1 / a pivot of a row with this diagonal entry before elimination; 0 if it is dropped.
+    fn reciprocal_pivot(self, diagonal: Self, found: &mut Pivots) -> Self;
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn reciprocal_pivot(self, diagonal: f64, found: &mut Pivots) -> f64 {
+        found.reciprocal(self, diagonal)
+    }
+}
+
+/// Complex symmetric, not Hermitian; nothing is dropped.
+impl<const L: usize> Scalar for Complex<L> {
+    #[inline(always)]
+    fn reciprocal_pivot(self, _diagonal: Self, found: &mut Pivots) -> Self {
+        let reciprocal = self.reciprocal();
+        found.finite &= reciprocal.is_finite();
+        reciprocal
+    }
+}
 
 /// The factor and the row in work. Panels as described at [`Supernode`]; their triangles have an implied unit diagonal.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Numeric {
-    panels: Vec<f64>,
+pub(super) struct Numeric<T> {
+    panels: Vec<T>,
     /// 1 / pivot of every row, 0 for a dropped one: its column of L and its unknown become 0 by themselves.
-    pub(super) reciprocals: Vec<f64>,
+    pub(super) reciprocals: Vec<T>,
     /// The row in work at its full length; zero between two rows.
-    row: Vec<f64>,
+    row: Vec<T>,
     /// The part of it that belongs to one supernode.
-    part: Vec<f64>,
+    part: Vec<T>,
 }
 
-impl Numeric {
+impl<T: Scalar> Numeric<T> {
     pub(super) fn reserve(&mut self, symbolic: &Symbolic) {
         for (list, length) in [
             (&mut self.panels, symbolic.panels),
@@ -31,11 +58,11 @@ impl Numeric {
             (&mut self.part, symbolic.widest),
         ] {
             list.clear();
-            list.resize(length, 0.0);
+            list.resize(length, T::default());
         }
     }
 
-    pub(super) fn factor(&mut self, symbolic: &Symbolic, values: &[f64]) -> Pivots {
+    pub(super) fn factor(&mut self, symbolic: &Symbolic, values: &[T]) -> Pivots {
         let mut pivots = Pivots::default();
         for pair in symbolic.block_rows.windows(2) {
             let (block, next) = (pair[0], pair[1]);
@@ -57,14 +84,14 @@ impl Numeric {
                 }
                 let k = block.first as usize + row;
                 pivot -= self.meet_own(&symbolic.nodes[block.node as usize], k);
-                self.reciprocals[k] = pivots.reciprocal(pivot, diagonal);
+                self.reciprocals[k] = pivot.reciprocal_pivot(diagonal, &mut pivots);
             }
         }
         pivots
     }
 
     /// Lays row `row` of a block row of A, left of the diagonal, into the row in work.
-    fn scatter(&mut self, symbolic: &Symbolic, block: &BlockRow, next: &BlockRow, row: usize, values: &[f64]) {
+    fn scatter(&mut self, symbolic: &Symbolic, block: &BlockRow, next: &BlockRow, row: usize, values: &[T]) {
         for entry in &symbolic.entries[block.entries as usize..next.entries as usize] {
             let (column, width) = (entry.column as usize, entry.width as usize);
             self.row[column..column + width].copy_from_slice(&values[entry.value + row * width..][..width]);
@@ -74,12 +101,12 @@ impl Numeric {
     }
 
     /// Eliminates a supernode of one column from the row in work, whose entry comes below `rows`. Returns its part of lᵀ D l.
-    fn meet_one(&mut self, node: &Supernode, rows: &[u32]) -> f64 {
+    fn meet_one(&mut self, node: &Supernode, rows: &[u32]) -> T {
         let first = node.first as usize;
-        let part = std::mem::replace(&mut self.row[first], 0.0);
+        let part = std::mem::take(&mut self.row[first]);
         let column = &mut self.panels[node.panel + 1..][..rows.len() + 1];
         for (&row, entry) in rows.iter().zip(&*column) {
-            self.row[row as usize] -= entry * part;
+            self.row[row as usize] -= *entry * part;
         }
         let entry = part * self.reciprocals[first];
         column[rows.len()] = entry;
@@ -87,20 +114,21 @@ impl Numeric {
     }
 
     /// The same for a few columns.
-    fn meet<const W: usize>(&mut self, node: &Supernode, rows: &[u32]) -> f64 {
+    fn meet<const W: usize>(&mut self, node: &Supernode, rows: &[u32]) -> T {
         let first = node.first as usize;
         let panel = &mut self.panels[node.panel..][..(W + rows.len() + 1) * W];
         let (panel, _) = panel.as_chunks_mut::<W>();
-        let mut part = [0.0; W];
+        let mut part = [T::default(); W];
         part.copy_from_slice(&self.row[first..first + W]);
-        self.row[first..first + W].fill(0.0);
+        self.row[first..first + W].fill(T::default());
         for c in 1..W {
             for b in 0..c {
-                part[c] -= panel[c][b] * part[b];
+                let known = panel[c][b] * part[b];
+                part[c] -= known;
             }
         }
         for (&row, entries) in rows.iter().zip(&panel[W..]) {
-            let mut sum = 0.0;
+            let mut sum = T::default();
             for c in 0..W {
                 sum += entries[c] * part[c];
             }
@@ -108,7 +136,7 @@ impl Numeric {
         }
         let reciprocals = &self.reciprocals[first..first + W];
         let entries = &mut panel[W + rows.len()];
-        let mut square = 0.0;
+        let mut square = T::default();
         for c in 0..W {
             entries[c] = part[c] * reciprocals[c];
             square += entries[c] * part[c];
@@ -117,13 +145,13 @@ impl Numeric {
     }
 
     /// The same for any number of columns.
-    fn meet_wide(&mut self, node: &Supernode, rows: &[u32]) -> f64 {
+    fn meet_wide(&mut self, node: &Supernode, rows: &[u32]) -> T {
         let (first, width) = (node.first as usize, node.width as usize);
         let panel = &mut self.panels[node.panel..][..(width + rows.len() + 1) * width];
         let (triangle, below) = panel.split_at_mut(width * width);
         let part = &mut self.part[..width];
         part.copy_from_slice(&self.row[first..first + width]);
-        self.row[first..first + width].fill(0.0);
+        self.row[first..first + width].fill(T::default());
         solve_unit_lower(triangle, width, part);
         let (above, new) = below.split_at_mut(rows.len() * width);
         for (&row, entries) in rows.iter().zip(above.chunks_exact(width)) {
@@ -133,23 +161,23 @@ impl Numeric {
     }
 
     /// The columns of the row's own supernode that are left of it.
-    fn meet_own(&mut self, node: &Supernode, k: usize) -> f64 {
+    fn meet_own(&mut self, node: &Supernode, k: usize) -> T {
         let (first, width) = (node.first as usize, node.width as usize);
         let above = k - first;
         if above == 0 {
-            return 0.0;
+            return T::default();
         }
         let triangle = &mut self.panels[node.panel..][..(above + 1) * width];
         let (triangle, new) = triangle.split_at_mut(above * width);
         let part = &mut self.part[..above];
         part.copy_from_slice(&self.row[first..k]);
-        self.row[first..k].fill(0.0);
+        self.row[first..k].fill(T::default());
         solve_unit_lower(triangle, width, part);
         append(&mut new[..above], part, &self.reciprocals[first..k])
     }
 
     /// A x = b in place, in the order of elimination: L z = b, then Lᵀ x = D⁻¹ z.
-    pub(super) fn solve(&self, symbolic: &Symbolic, x: &mut [f64]) {
+    pub(super) fn solve(&self, symbolic: &Symbolic, x: &mut [T]) {
         for node in &symbolic.nodes {
             self.solve_forwards(symbolic, node, x);
         }
@@ -158,14 +186,14 @@ impl Numeric {
         }
     }
 
-    fn solve_forwards(&self, symbolic: &Symbolic, node: &Supernode, x: &mut [f64]) {
+    fn solve_forwards(&self, symbolic: &Symbolic, node: &Supernode, x: &mut [T]) {
         let (width, rows) = (node.width as usize, node_rows(symbolic, node));
         let panel = &self.panels[node.panel..][..(width + rows.len()) * width];
         let (own, below) = x[node.first as usize..].split_at_mut(width);
         let offset = node.first + node.width;
         if width == 1 {
             for (&row, entry) in rows.iter().zip(&panel[1..]) {
-                below[(row - offset) as usize] -= entry * own[0];
+                below[(row - offset) as usize] -= *entry * own[0];
             }
             return;
         }
@@ -175,17 +203,17 @@ impl Numeric {
         }
     }
 
-    fn solve_backwards(&self, symbolic: &Symbolic, node: &Supernode, x: &mut [f64]) {
+    fn solve_backwards(&self, symbolic: &Symbolic, node: &Supernode, x: &mut [T]) {
         let (first, width, rows) = (node.first as usize, node.width as usize, node_rows(symbolic, node));
         let panel = &self.panels[node.panel..][..(width + rows.len()) * width];
         let (own, below) = x[first..].split_at_mut(width);
         let offset = node.first + node.width;
         for (x, reciprocal) in own.iter_mut().zip(&self.reciprocals[first..first + width]) {
-            *x *= reciprocal;
+            *x = *x * *reciprocal;
         }
         if width == 1 {
             for (&row, entry) in rows.iter().zip(&panel[1..]) {
-                own[0] -= entry * below[(row - offset) as usize];
+                own[0] -= *entry * below[(row - offset) as usize];
             }
             return;
         }
@@ -204,7 +232,7 @@ fn node_rows<'a>(symbolic: &'a Symbolic, node: &Supernode) -> &'a [u32] {
 }
 
 /// T x = b in place for the unit lower triangle in the first rows of a panel of this width.
-fn solve_unit_lower(panel: &[f64], width: usize, x: &mut [f64]) {
+fn solve_unit_lower<T: Scalar>(panel: &[T], width: usize, x: &mut [T]) {
     for c in 1..x.len() {
         let (before, after) = x.split_at_mut(c);
         after[0] -= dot(&panel[c * width..][..c], before);
@@ -212,33 +240,33 @@ fn solve_unit_lower(panel: &[f64], width: usize, x: &mut [f64]) {
 }
 
 /// New entries of L: `part` divided by the pivots. Returns Σ entry · part.
-fn append(new: &mut [f64], part: &[f64], reciprocals: &[f64]) -> f64 {
-    let mut square = 0.0;
+fn append<T: Scalar>(new: &mut [T], part: &[T], reciprocals: &[T]) -> T {
+    let mut square = T::default();
     for ((entry, part), reciprocal) in new.iter_mut().zip(part).zip(reciprocals) {
-        *entry = part * reciprocal;
-        square += *entry * part;
+        *entry = *part * *reciprocal;
+        square += *entry * *part;
     }
     square
 }
 
 /// Σ a b in four interleaved sums, always the same four, so that additions need not wait for one another.
 #[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
-    let mut sums = [0.0; 4];
+    let mut sums = [T::default(); 4];
     for (a, b) in a.iter().zip(b) {
         for k in 0..4 {
             sums[k] += a[k] * b[k];
         }
     }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    let rest = a_rest.iter().zip(b_rest).fold(T::default(), |sum, (a, b)| sum + *a * *b);
     (sums[0] + sums[2]) + (sums[1] + sums[3]) + rest
 }
 
 /// x −= factor · row.
 #[inline(always)]
-fn subtract_multiple(x: &mut [f64], row: &[f64], factor: f64) {
+fn subtract_multiple<T: Scalar>(x: &mut [T], row: &[T], factor: T) {
     for (x, entry) in x.iter_mut().zip(row) {
-        *x -= factor * entry;
+        *x -= factor * *entry;
     }
 }
