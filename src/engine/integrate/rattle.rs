@@ -23,6 +23,8 @@ const SWING: f64 = 1.8;
 /// Steps beyond which an implicit method is cheaper: with constraints, and where there is nothing to factor.
 const MOST_CONSTRAINED: f64 = 8.0;
 const MOST_FREE: f64 = 40.0;
+/// Most steps for an accuracy.
+const MOST_WITHIN: f64 = 100.0;
 const MOST_ITERATIONS: u32 = 25;
 /// C = 0 is met to this part of L².
 const TIGHT: f64 = 1e-14;
@@ -86,7 +88,7 @@ impl Rattle {
         let mut outcome = Outcome { order: 2, ..Outcome::default() };
         self.reserve(system, pace);
         if !system.unconstrained() && system.rods.lambda.iter().all(|lambda| *lambda == 0.0) && !self.expect(system) {
-            return Outcome { failed: true, ..outcome };
+            return Outcome { failed: true, kept: false, ..outcome };
         }
         let rates = system.rates(&mut self.load);
         let stable = libm::ceil(time * (rates.turn / TURN).max(rates.swing / SWING)).max(1.0);
@@ -97,7 +99,7 @@ impl Rattle {
             Pace::Within(_) => stable,
         };
         if !(steps <= super::MOST_STEPS && meet(system)) {
-            return Outcome { failed: true, ..outcome };
+            return Outcome { failed: true, kept: false, ..outcome };
         }
         self.start.keep(system);
         let mut changes = 0;
@@ -115,12 +117,16 @@ impl Rattle {
                     outcome.kept = pace.keeps(error);
                     return outcome;
                 }
-                Run::Again(more) => (steps, changes) = (more.min(super::MOST_STEPS), changes + 1),
+                Run::Again(more) => (steps, changes) = (more, changes + 1),
                 Run::Failed => steps *= 2.0,
             }
             outcome.retries += 1;
+            if watched && !(steps <= MOST_WITHIN) {
+                self.start.restore(system);
+                return Outcome { stiff: true, ..outcome };
+            }
             if !(steps <= super::MOST_STEPS) {
-                return Outcome { failed: true, ..outcome };
+                return Outcome { failed: true, kept: false, ..outcome };
             }
             self.start.restore(system);
         }

@@ -32,6 +32,12 @@ impl Moment {
         system.pins.lambda.copy_from_slice(&self.pins);
     }
 
+    /// Velocities, x and y by node.
+    pub fn velocities(&self) -> [&[f64]; 2] {
+        let [_, _, vx, vy] = &self.coordinates;
+        [vx, vy]
+    }
+
     /// Estimate of the error of a step of `h` seconds that began here, RMS over the nodes [m]; `turn` is scratch.
     ///
     /// The rule leaves out h³/12 times the jerk. What a rod's force brings about turns with the rod, so that the jerk times h² is about
