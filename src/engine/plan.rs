@@ -23,8 +23,10 @@ const DAMPER_LIMIT: f64 = 0.5;
 const LOCAL: f64 = 0.03;
 /// The same for series, whose estimate is held to it over all steps of a frame together.
 const LOCAL_SERIES: f64 = 0.05;
+/// The same for Nyström's methods, whose estimate is a bound.
+const LOCAL_NYSTROM: f64 = 0.1;
 /// The same for methods of order 2, whose errors add up more evenly.
-const LOCAL_SECOND: f64 = 0.028;
+const LOCAL_SECOND: f64 = 0.014;
 
 /// Accuracies down to which methods of order 2 cost least.
 const SECOND_ORDER: f64 = 6e-4;
@@ -35,7 +37,7 @@ const FINEST_NYSTROM: f64 = 1e-11;
 /// Walls with which free bodies are carried from event to event: each is looked at for each body.
 const MOST_WALLS: usize = 512;
 
-/// Loosest accuracy of Nyström's methods and of what free bodies are carried with from event to event, and of series.
+/// Loosest accuracy of what free bodies are carried with from event to event, and of series and Nyström's methods.
 const LOOSEST_LOCAL: f64 = 1e-5;
 const LOOSEST_SERIES: f64 = 1e-3;
 
@@ -455,7 +457,8 @@ impl IslandPlan {
         let series_tolerance = LOCAL_SERIES * method.accuracy.min(LOOSEST_SERIES);
         let tolerance = match integrator {
             Integrator::Rattle => LOCAL_SECOND * method.accuracy,
-            _ => LOCAL * method.accuracy.min(LOOSEST_LOCAL),
+            Integrator::Nystrom4 | Integrator::Nystrom6 => LOCAL_NYSTROM * method.accuracy.min(LOOSEST_SERIES),
+            _ => series_tolerance,
         };
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;

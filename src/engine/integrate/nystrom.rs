@@ -15,8 +15,8 @@ struct Scheme {
     order: u32,
     kicks: &'static [f64],
     drifts: &'static [f64],
-    /// Error of a step over h^(order + 1) x^(order + 1): some ten times that of a linear
-    /// oscillator, 1.5e-5 and 8e-8, for what is not linear.
+    /// Error of a step over h^(order + 1) ω^(order − 2) times the third derivative: some ten times that of a linear oscillator, 1.5e-5 and
+    /// 8e-8, for what is not linear.
     constant: f64,
     /// Largest h ω in a step.
     swing: f64,
@@ -57,8 +57,20 @@ const ORDER_6: Scheme = Scheme {
     swing: 6.0,
 };
 
+/// Largest change of a spring's difference in a step, in parts of its length: beyond it its force turns farther than the stages follow.
+const TURN: f64 = 0.5;
+/// Most that an error counts as, in parts of what is allowed.
+const MOST_EXCESS: f64 = 1e4;
 /// Times that the number of steps is corrected.
 const MOST_CHANGES: u32 = 4;
+
+/// How a run of equal steps ended.
+enum Run {
+    /// With an estimate of the local errors' sum [m].
+    Done(f64),
+    /// So many steps will do.
+    Again(f64),
+}
 
 /// Scratch memory, by node.
 #[derive(Debug, Default)]
@@ -86,42 +98,57 @@ impl Nystrom {
         self.ax.resize(nodes, 0.0);
         self.ay.resize(nodes, 0.0);
         let least = if let Pace::Steps(steps) = pace { f64::from(steps) } else { 1.0 };
-        let mut steps = libm::ceil(time * system.rates(&mut self.load).swing / scheme.swing).max(least);
+        let swing = system.rates(&mut self.load).swing;
+        let mut steps = libm::ceil(time * swing / scheme.swing).max(least);
         if !(steps <= super::MOST_STEPS) {
-            return Outcome { failed: true, ..fresh };
+            return Outcome { failed: true, kept: false, ..fresh };
         }
         system.force_accelerations(&mut self.ax, &mut self.ay);
         let Self { ax, ay, start, .. } = self;
         keep(start, system, ax, ay);
         let mut changes = 0;
         loop {
-            let mut outcome = Outcome { retries: changes, steps: steps as u32, ..fresh };
-            let (probe, h) = (matches!(pace, Pace::Within(_)), time / steps);
-            let mut more = None;
-            for step in 0..steps as u32 {
-                if probe {
-                    keep(&mut self.before, system, &self.ax, &self.ay);
+            match self.run(scheme, system, (time, steps, swing), (pace, changes)) {
+                Run::Done(error) => {
+                    let kept = pace.keeps(error);
+                    return Outcome { retries: changes, steps: steps as u32, error, kept, ..fresh };
                 }
-                self.step(scheme, system, h);
-                if let Pace::Within(tolerance) = pace {
-                    let error = self.error(scheme, system, h);
-                    outcome.error += error;
-                    if step == 0 && changes < MOST_CHANGES {
-                        more = steps_within(steps, steps * error / tolerance, f64::from(scheme.order));
-                        if more.is_some() {
-                            break;
-                        }
-                    }
+                Run::Again(more) => {
+                    changes += 1;
+                    steps = more.min(super::MOST_STEPS);
+                    restore(&self.start, system, &mut self.ax, &mut self.ay);
                 }
             }
-            let Some(more) = more else {
-                outcome.kept = pace.keeps(outcome.error);
-                return outcome;
-            };
-            changes += 1;
-            steps = more.min(super::MOST_STEPS);
-            restore(&self.start, system, &mut self.ax, &mut self.ay);
         }
+    }
+
+    /// So many equal steps. Ends early where the errors so far say that it takes more of them.
+    fn run(
+        &mut self,
+        scheme: &Scheme,
+        system: &mut System,
+        (time, steps, swing): (f64, f64, f64),
+        (pace, changes): (Pace, u32),
+    ) -> Run {
+        let h = time / steps;
+        let mut sum = 0.0;
+        for step in 0..steps as u32 {
+            let Pace::Within(tolerance) = pace else {
+                self.step(scheme, system, h);
+                continue;
+            };
+            keep(&mut self.before, system, &self.ax, &self.ay);
+            self.step(scheme, system, h);
+            sum += self.error(scheme, system, h, swing);
+            // The first step tells what the others will be like; they tell themselves whether they were.
+            let expected = sum * steps / f64::from(step + 1);
+            let judged = if step == 0 { expected } else { sum };
+            if changes < MOST_CHANGES && !pace.keeps(judged) {
+                let more = steps_within(steps, (expected / tolerance).min(MOST_EXCESS), f64::from(scheme.order));
+                return Run::Again(more.unwrap_or(2.0 * steps));
+            }
+        }
+        Run::Done(sum)
     }
 
     fn step(&mut self, scheme: &Scheme, system: &mut System, h: f64) {
@@ -138,31 +165,26 @@ impl Nystrom {
         }
     }
 
-    /// Estimate of the error of the step just taken, RMS over the nodes [m].
+    /// Estimate of the error of the step just taken, RMS over the nodes [m]; the island's size where a spring turns too far to
+    /// tell.
     ///
-    /// x' − x − ½ h (v + v') + h² (a' − a)/12 = h⁵ x⁽⁵⁾/720 for every smooth motion (Hermite). Higher derivatives are taken to grow as
-    /// the fifth does over the third, (a' − a)/h.
-    fn error(&self, scheme: &Scheme, system: &System, h: f64) -> f64 {
+    /// What a method of order p leaves out are elementary differentials, h^(p+1) ω^(p−2) times the third derivative where the fastest part
+    /// swings with ω: of that part itself, and of all that moves slowly with it, whose stages are off the way that stiff springs leave
+    /// free. The motion alone, however smooth, does not tell. h² (a' − a) stands for h³ times the third derivative.
+    fn error(&self, scheme: &Scheme, system: &System, h: f64, swing: f64) -> f64 {
         let nodes = &system.nodes;
-        let [x, y, vx, vy, ax, ay] = &self.before;
-        let (mut fifth, mut third) = (0.0, 0.0);
-        for (x, v, a) in
-            [((x, &nodes.x), (vx, &nodes.vx), (ax, &self.ax)), ((y, &nodes.y), (vy, &nodes.vy), (ay, &self.ay))]
-        {
-            for i in 0..nodes.len() {
-                let change = h * h * (a.1[i] - a.0[i]);
-                let defect = (x.1[i] - x.0[i]) - 0.5 * h * (v.0[i] + v.1[i]) + change / 12.0;
-                fifth += defect * defect;
-                third += change * change;
+        let [x, y, _, _, ax, ay] = &self.before;
+        if !(system.springs.largest_turn(nodes, x, y) <= TURN) {
+            return system.length;
+        }
+        let mut third = 0.0;
+        for (before, after) in [(ax, &self.ax), (ay, &self.ay)] {
+            for (before, after) in before.iter().zip(after) {
+                third += (after - before) * (after - before);
             }
         }
-        let n = nodes.len() as f64;
-        let (fifth, third) = (720.0 * (fifth / n).sqrt(), (third / n).sqrt());
-        // Below this there is only rounding.
-        if !(fifth > 1e-11 * system.length) || third == 0.0 {
-            return scheme.constant * fifth.min(1e-11 * system.length) * 1e-3;
-        }
-        scheme.constant * fifth * libm::pow(fifth / third, f64::from(scheme.order - 4) / 2.0)
+        let growth = (0..scheme.order - 2).fold(1.0, |product, _| product * h * swing);
+        scheme.constant * growth * h * h * (third / nodes.len() as f64).sqrt()
     }
 }
 

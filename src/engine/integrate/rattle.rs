@@ -23,6 +23,8 @@ const SWING: f64 = 1.8;
 /// Steps beyond which an implicit method is cheaper: with constraints, and where there is nothing to factor.
 const MOST_CONSTRAINED: f64 = 8.0;
 const MOST_FREE: f64 = 40.0;
+/// Most steps for an accuracy.
+const MOST_WITHIN: f64 = 100.0;
 const MOST_ITERATIONS: u32 = 25;
 /// C = 0 is met to this part of L².
 const TIGHT: f64 = 1e-14;
@@ -30,6 +32,8 @@ const TIGHT: f64 = 1e-14;
 const ROUNDING: f64 = 1e-10;
 /// Part of the wanted local error to which constraints are met where only that much is asked for.
 const LOOSE: f64 = 0.1;
+/// Most that an error counts as, in parts of what is allowed.
+const MOST_EXCESS: f64 = 1e4;
 /// Times that the number of steps is corrected.
 const MOST_CHANGES: u32 = 4;
 /// A start farther off C = 0 (in parts of L²) is projected, whatever is wanted: someone has moved a body.
@@ -47,6 +51,9 @@ pub(crate) struct Rattle {
     ux: Vec<f64>,
     uy: Vec<f64>,
     before: [Vec<f64>; 2],
+    /// How far they moved in the last step, and by how much that was farther than in the one before it.
+    last: [Vec<f64>; 2],
+    growth: [Vec<f64>; 2],
     load: Vec<f64>,
     start: Start,
     /// By row: the mean multipliers of this step and of the one before, and h² λ of this step.
@@ -81,7 +88,7 @@ impl Rattle {
         let mut outcome = Outcome { order: 2, ..Outcome::default() };
         self.reserve(system, pace);
         if !system.unconstrained() && system.rods.lambda.iter().all(|lambda| *lambda == 0.0) && !self.expect(system) {
-            return Outcome { failed: true, ..outcome };
+            return Outcome { failed: true, kept: false, ..outcome };
         }
         let rates = system.rates(&mut self.load);
         let stable = libm::ceil(time * (rates.turn / TURN).max(rates.swing / SWING)).max(1.0);
@@ -92,7 +99,7 @@ impl Rattle {
             Pace::Within(_) => stable,
         };
         if !(steps <= super::MOST_STEPS && meet(system)) {
-            return Outcome { failed: true, ..outcome };
+            return Outcome { failed: true, kept: false, ..outcome };
         }
         self.start.keep(system);
         let mut changes = 0;
@@ -102,19 +109,24 @@ impl Rattle {
             } else {
                 f64::INFINITY
             };
-            match self.run(system, time, steps, asked) {
+            let watched = matches!(pace, Pace::Within(_));
+            match self.run(system, (time, steps), asked, watched) {
                 Run::Done(error) => {
                     outcome.steps = steps as u32;
                     outcome.error = error;
                     outcome.kept = pace.keeps(error);
                     return outcome;
                 }
-                Run::Again(more) => (steps, changes) = (more.min(super::MOST_STEPS), changes + 1),
+                Run::Again(more) => (steps, changes) = (more, changes + 1),
                 Run::Failed => steps *= 2.0,
             }
             outcome.retries += 1;
+            if watched && !(steps <= MOST_WITHIN) {
+                self.start.restore(system);
+                return Outcome { stiff: true, ..outcome };
+            }
             if !(steps <= super::MOST_STEPS) {
-                return Outcome { failed: true, ..outcome };
+                return Outcome { failed: true, kept: false, ..outcome };
             }
             self.start.restore(system);
         }
@@ -124,7 +136,8 @@ impl Rattle {
     fn reserve(&mut self, system: &System, pace: Pace) {
         let (nodes, rows) = (system.nodes.len(), system.rhs.len());
         let [px, py] = &mut self.before;
-        for scratch in [&mut self.ax, &mut self.ay, &mut self.ux, &mut self.uy, px, py] {
+        let steps = self.last.iter_mut().chain(&mut self.growth);
+        for scratch in [&mut self.ax, &mut self.ay, &mut self.ux, &mut self.uy, px, py].into_iter().chain(steps) {
             scratch.resize(nodes, 0.0);
         }
         for scratch in [&mut self.lambda, &mut self.lambda_before, &mut self.total] {
@@ -144,8 +157,9 @@ impl Rattle {
         met
     }
 
-    /// So many equal steps. Ends after the first one if its error says that `tolerance` [m] takes more of them.
-    fn run(&mut self, system: &mut System, time: f64, steps: f64, tolerance: f64) -> Run {
+    /// So many equal steps. Ends after the first one if its error says that `tolerance` [m] takes more of them, and after the last one if the
+    /// sum does, which is known if the steps are `watched`.
+    fn run(&mut self, system: &mut System, (time, steps): (f64, f64), tolerance: f64, watched: bool) -> Run {
         let h = time / steps;
         let damped = system.damped();
         self.lambda.copy_from_slice(&self.start.lambda);
@@ -181,17 +195,48 @@ impl Rattle {
                 self.estimate_velocities(system, step, h);
             }
             if step == 0 {
-                error = steps * self.renew_accelerations_and_tell(system, h, damped);
-                if let Some(more) = steps_within(steps, error / tolerance, 2.0) {
+                error = self.renew_accelerations_and_tell(system, h, damped);
+                if let Some(more) = steps_within(steps, steps * error / tolerance, 2.0) {
                     return Run::Again(more);
                 }
             } else {
                 system.force_accelerations(&mut self.ax, &mut self.ay);
             }
+            if watched {
+                error += self.tell(step, h);
+            }
             system.factor_if_constrained();
+        }
+        let [x, y, ..] = &self.start.coordinates;
+        if watched && system.springs.turn_over(&system.nodes, x, y) {
+            // Nothing tells how long it was on the wrong side.
+            error = system.length;
+        }
+        if let Some(more) = steps_within(steps, (error / tolerance).min(MOST_EXCESS), 2.0) {
+            return Run::Again(more);
         }
         self.finish(system, h);
         Run::Done(error)
+    }
+
+    /// Estimate of the error of a step beyond what the first one tells of itself, RMS over the nodes [m]: h² (a' − a)/12 as there, with the
+    /// accelerations of forces and constraints together, which are what a step goes farther than the one before.
+    fn tell(&mut self, step: u32, h: f64) -> f64 {
+        let [_, _, vx, vy] = &self.start.coordinates;
+        let mut sum = 0.0;
+        let [lx, ly] = &mut self.last;
+        let [gx, gy] = &mut self.growth;
+        for (u, v, last, growth) in [(&self.ux, vx, lx, gx), (&self.uy, vy, ly, gy)] {
+            for i in 0..u.len() {
+                // The first step has half of what it would go farther than one before it.
+                let now = if step == 0 { 2.0 * (u[i] - h * v[i]) } else { u[i] - last[i] };
+                let change = if step == 0 { 0.0 } else { now - growth[i] };
+                sum += change * change;
+                growth[i] = now;
+                last[i] = u[i];
+            }
+        }
+        (sum / self.ux.len() as f64).sqrt() / 12.0
     }
 
     /// Keeps u.

@@ -83,7 +83,7 @@ impl RattleTurning {
             Pace::Within(tolerance) => (LOOSE * tolerance / system.length).clamp(TIGHT, FAR),
         };
         if !system.meet_constraints() {
-            return Outcome { failed: true, ..outcome };
+            return Outcome { failed: true, kept: false, ..outcome };
         }
         self.start.take_positions(system);
         self.start_speed.take_velocities(system);
@@ -124,7 +124,7 @@ impl RattleTurning {
                 return Outcome { stiff: true, ..outcome };
             }
         }
-        Outcome { failed: true, ..outcome }
+        Outcome { failed: true, kept: false, ..outcome }
     }
 
     fn reserve(&mut self, system: &System) {

@@ -40,6 +40,7 @@ impl RungeKutta {
         let steps = stable.max(f64::from(steps));
         outcome.failed |= !(steps <= super::MOST_STEPS);
         if outcome.failed {
+            outcome.kept = false;
             return outcome;
         }
         for _ in 0..steps as u32 {
@@ -48,6 +49,7 @@ impl RungeKutta {
                 break;
             }
         }
+        outcome.kept = !outcome.failed;
         outcome
     }
 

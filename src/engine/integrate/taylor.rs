@@ -22,12 +22,14 @@
 
 mod coefficients;
 mod judge;
+mod passage;
 mod polynomial;
 mod springs;
 mod turning;
 
 use self::coefficients::GripSeries;
 use self::judge::{Judge, Verdict};
+use self::passage::Passage;
 use self::polynomial::{horner, horner_rate};
 use self::springs::SpringSeries;
 use self::turning::TurningSeries;
@@ -62,6 +64,9 @@ pub(crate) struct Taylor {
     grip: GripSeries,
     turning: TurningSeries,
     judge: Judge,
+    /// Of the hop at hand; and in what time the springs swing that come near zero length in the step at hand [s], 0 if there are none.
+    passages: Vec<Passage>,
+    near_zero: f64,
     /// Of nodes, rods, rows and springs that there is room for.
     sizes: [usize; 4],
     fx: Vec<f64>,
@@ -111,6 +116,7 @@ impl Taylor {
             scratch.resize(rods, 0.0);
         }
         self.springs.reserve(system.springs.len());
+        self.passages.reserve(system.springs.len());
         self.grip.u.resize(HIGHEST_ORDER + 1, DVec2::ZERO);
         self.grip.square.resize(HIGHEST_ORDER + 1, 0.0);
         self.grip.inverse.resize(HIGHEST_ORDER + 1, 0.0);
@@ -172,6 +178,10 @@ impl Taylor {
     /// One step, or one taken back. Returns whether the run can go on.
     fn step(&mut self, system: &mut System, run: &mut Run) -> bool {
         let scale = run.left;
+        if let Some(spring) = self.starts_at_zero(system) {
+            self.hop_from_zero(system, spring, run);
+            return true;
+        }
         self.judge.keep(system);
         let order = self.expand(system, run);
         run.allowed = if order < run.highest && !run.whole { 1.0 } else { self.allowed_part(order, run) };
@@ -189,6 +199,14 @@ impl Taylor {
         if let Some((at, _)) = event {
             (part, run.events) = (at, run.events + 1);
         }
+        let mut hop = None;
+        if let Some((until, half)) = self.first_passage(system, order, part, run) {
+            if until <= 0.0 {
+                self.hop(system, 2.0 * half, run);
+                return true;
+            }
+            (part, hop) = (until, Some((until, half)));
+        }
         let Some(part) = self.go(system, order, part, run) else { return false };
         let event = event.filter(|(at, _)| *at == part);
         self.judge.expect(&self.x, &self.y, order, part, scale);
@@ -199,7 +217,9 @@ impl Taylor {
         self.coefficient(system, next, 0);
         let h = part * scale;
         let defect = self.judge.defect(&self.x[2], &self.y[2], next).max(self.turning.defect(next));
-        let error = defect * h * h / (order * (order + 1)) as f64;
+        // Near a zero of a spring's length steps are short beside all that follows: there the velocity counts.
+        let reach = self.near_zero.min(run.time).max(h);
+        let error = defect * h * reach / (order * (order + 1)) as f64;
         match self.judge.verdict(error, (order, part), run) {
             Verdict::Refused => {
                 self.judge.restore(system);
@@ -213,6 +233,10 @@ impl Taylor {
         run.outcome.steps += 1;
         run.outcome.order = run.outcome.order.max(order as u32);
         run.outcome.error += error;
+        if let Some((_, half)) = hop.filter(|(until, _)| *until == part) {
+            self.hop(system, 2.0 * half, run);
+            return true;
+        }
         self.go_on(system, event.map(|(_, event)| event), left);
         true
     }

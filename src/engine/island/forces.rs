@@ -1,6 +1,7 @@
 //! Forces of an island: springs with dampers, the mouse's hold, gravity and drag.
 
 use super::Nodes;
+use super::lanes::Largest;
 use super::pairs::Pairs;
 use crate::engine::constraint::Grip;
 use crate::engine::world::World;
@@ -126,6 +127,44 @@ impl Springs {
             block.add_to_both(dx, x);
             block.add_to_both(dy, y);
         }
+    }
+
+    /// Largest change of a spring's difference since the nodes stood at `x` and `y`, in parts of the shorter of both; NaN if one is.
+    /// Springs without a rest length pull to a point, whatever their direction.
+    pub fn largest_turn(&self, nodes: &Nodes, x: &[f64], y: &[f64]) -> f64 {
+        let [mut dx, mut dy, mut ex, mut ey] = [[0.0; SIDE]; 4];
+        let mut largest = Largest::default();
+        for block in self.pairs.blocks::<SIDE>() {
+            let range = block.range();
+            let n = range.len();
+            let rest = &self.rest[range][..n];
+            for (from, to) in [(x, &mut dx), (y, &mut dy), (&nodes.x[..], &mut ex), (&nodes.y[..], &mut ey)] {
+                block.differences(from, &mut to[..n]);
+            }
+            for i in 0..n {
+                let (cx, cy) = (ex[i] - dx[i], ey[i] - dy[i]);
+                let (before, after) = (dx[i] * dx[i] + dy[i] * dy[i], ex[i] * ex[i] + ey[i] * ey[i]);
+                let shorter = if before < after { before } else { after };
+                let moved = cx * cx + cy * cy;
+                dx[i] = if rest[i] > 0.0 && moved > 0.0 { moved / shorter } else { 0.0 };
+            }
+            largest.take(&dx[..n]);
+        }
+        largest.value().sqrt()
+    }
+
+    /// Whether a spring with a rest length points backwards, seen from when the nodes stood at `x` and `y`.
+    pub fn turn_over(&self, nodes: &Nodes, x: &[f64], y: &[f64]) -> bool {
+        let [mut dx, mut dy, mut ex, mut ey] = [[0.0; SIDE]; 4];
+        self.pairs.blocks::<SIDE>().any(|block| {
+            let range = block.range();
+            let n = range.len();
+            for (from, to) in [(x, &mut dx), (y, &mut dy), (&nodes.x[..], &mut ex), (&nodes.y[..], &mut ey)] {
+                block.differences(from, &mut to[..n]);
+            }
+            let rest = &self.rest[range][..n];
+            (0..n).any(|i| rest[i] > 0.0 && dx[i] * ex[i] + dy[i] * ey[i] < 0.0)
+        })
     }
 
     /// Writes the springs' forces, as multipliers (λ, 0) [N].

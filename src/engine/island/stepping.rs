@@ -167,6 +167,13 @@ impl Islands {
             Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
             _ => self.taylor.advance(system, time, plan.series_tolerance * system.length, BUDGET),
         };
+        if plan.steps.is_none() && !outcome.kept && integrator != Integrator::Taylor {
+            system.load(world, time);
+            let series = self.taylor.advance(system, time, plan.series_tolerance * system.length, BUDGET);
+            if !series.failed {
+                return (Integrator::Taylor, series);
+            }
+        }
         (integrator, outcome)
     }
 

@@ -14,6 +14,7 @@ mod discrete;
 mod graph;
 mod moment;
 mod tree;
+mod unresolved;
 
 use super::outcome::{Outcome, in_parts};
 use super::pace::{Pace, steps_within};
@@ -21,11 +22,16 @@ use crate::engine::island::System;
 use graph::Graph;
 use moment::Moment;
 use tree::Tree;
+use unresolved::Unresolved;
 
 /// Cosine of the largest turn of a rod in a step.
 const TURN: f64 = 0.35;
 /// Times that the number of steps is corrected.
 const MOST_CHANGES: u32 = 3;
+/// What counts of swings that are not resolved: unlike other errors they do not add up from step to step.
+const UNRESOLVED: f64 = 0.2;
+/// Most steps for an accuracy.
+const MOST_WITHIN: f64 = 40.0;
 /// Most Newton iterations.
 const MOST_ITERATIONS: u32 = 15;
 /// What the next correction would have to change to be worth making, in parts of a rod's length. Well above the rounding of a
@@ -49,6 +55,7 @@ pub(crate) struct EnergyMomentum {
     before: Moment,
     /// By node: turns of the rods that end there.
     turn: Vec<f64>,
+    unresolved: Unresolved,
 }
 
 #[derive(Debug, Default)]
@@ -75,17 +82,22 @@ impl EnergyMomentum {
         };
         let mut changes = 0;
         if !meet(system) {
-            return Outcome { order: 2, failed: true, ..Outcome::default() };
+            return Outcome { order: 2, failed: true, kept: false, ..Outcome::default() };
         }
         self.start.keep(system);
+        self.unresolved.reserve(system);
         loop {
             let mut outcome = self.run(system, time, steps, (pace, tight));
             outcome.retries += changes;
-            outcome.kept = pace.keeps(outcome.error);
+            outcome.kept = !outcome.failed && pace.keeps(outcome.error);
             let Pace::Within(tolerance) = pace else { return outcome };
             let more = steps_within(f64::from(steps), outcome.error / tolerance, 2.0);
             let Some(more) = more.filter(|_| !outcome.failed && changes < MOST_CHANGES) else { return outcome };
-            (steps, changes) = (more.min(super::MOST_STEPS) as u32, changes + 1);
+            if more > MOST_WITHIN {
+                // What flies about so fast is carried better by a method of higher order.
+                return outcome;
+            }
+            (steps, changes) = (more as u32, changes + 1);
             self.start.restore(system);
         }
     }
@@ -93,7 +105,7 @@ impl EnergyMomentum {
     fn run(&mut self, system: &mut System, time: f64, steps: u32, (pace, tight): (Pace, f64)) -> Outcome {
         let mut outcome = Outcome { order: 2, ..Outcome::default() };
         let watched = matches!(pace, Pace::Within(_));
-        let (mut error, mut first) = (0.0, true);
+        let (mut error, mut first, mut last) = (0.0, true, 0.0);
         for _ in 0..steps {
             let step = |h: f64| {
                 if watched && !first {
@@ -103,8 +115,11 @@ impl EnergyMomentum {
                 if solved {
                     self.apply(system, h);
                     let before = if first { &self.start } else { &self.before };
-                    error += if watched { before.error(system, h, &mut self.turn) } else { 0.0 };
-                    first = false;
+                    if watched {
+                        error += before.error(system, h, &mut self.turn);
+                        error += UNRESOLVED * self.unresolved.change(system, before, h, first);
+                    }
+                    (first, last) = (false, h);
                 }
                 solved
             };
@@ -112,6 +127,11 @@ impl EnergyMomentum {
                 outcome.failed = true;
                 break;
             }
+        }
+        if watched && !outcome.failed && matches!(self.solver, Solver::Tree(_)) {
+            // A net's matrix costs too much for this.
+            let before = if outcome.steps == 1 { &self.start } else { &self.before };
+            error += UNRESOLVED * self.unresolved.error(system, before, last);
         }
         outcome.error = error;
         outcome

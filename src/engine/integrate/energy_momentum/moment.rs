@@ -32,10 +32,17 @@ impl Moment {
         system.pins.lambda.copy_from_slice(&self.pins);
     }
 
+    /// Velocities, x and y by node.
+    pub fn velocities(&self) -> [&[f64]; 2] {
+        let [_, _, vx, vy] = &self.coordinates;
+        [vx, vy]
+    }
+
     /// Estimate of the error of a step of `h` seconds that began here, RMS over the nodes [m]; `turn` is scratch.
     ///
     /// The rule leaves out h³/12 times the jerk. What a rod's force brings about turns with the rod, so that the jerk times h² is about
-    /// its turn times the change of the velocity. Swings that the step does not resolve change no direction and are left out.
+    /// its turn times the change of the velocity; a spring's as well. Swings that the step does not resolve change no direction and are left
+    /// out. Where a spring turns over the error is the island's size.
     pub fn error(&self, system: &System, h: f64, turn: &mut Vec<f64>) -> f64 {
         let (nodes, rods) = (&system.nodes, &system.rods);
         let [x, y, vx, vy] = &self.coordinates;
@@ -52,6 +59,22 @@ impl Moment {
             for k in 0..n {
                 let turned = (dx[k] * ey[k] - dy[k] * ex[k]) / square[k];
                 dx[k] = 0.5 * turned * turned;
+            }
+            block.add_to_both(&dx[..n], turn);
+        }
+        let springs = &system.springs;
+        if springs.turn_over(nodes, x, y) {
+            return system.length;
+        }
+        for block in springs.pairs.blocks::<SIDE>() {
+            let n = block.range().len();
+            for (from, to) in [(x, &mut dx), (y, &mut dy), (&nodes.x, &mut ex), (&nodes.y, &mut ey)] {
+                block.differences(from, &mut to[..n]);
+            }
+            for k in 0..n {
+                let square = dx[k] * dx[k] + dy[k] * dy[k];
+                let turned = (dx[k] * ey[k] - dy[k] * ex[k]) / square;
+                dx[k] = if square > 0.0 { 0.5 * turned * turned } else { 0.0 };
             }
             block.add_to_both(&dx[..n], turn);
         }

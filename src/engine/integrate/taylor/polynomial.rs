@@ -35,3 +35,13 @@ pub(super) fn horner_second(c: &[Vec<f64>], order: usize, t: f64, scale: f64, to
     let over = 1.0 / (scale * scale);
     to.iter_mut().for_each(|to| *to *= over);
 }
+
+/// Σ c_k tᵏ of one entry.
+pub(super) fn value(c: &[Vec<f64>], i: usize, t: f64) -> f64 {
+    c.iter().rev().fold(0.0, |sum, c| sum * t + c[i])
+}
+
+/// Σ k c_k tᵏ⁻¹ of one entry.
+pub(super) fn value_rate(c: &[Vec<f64>], i: usize, t: f64) -> f64 {
+    c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * t + k as f64 * c[i])
+}

@@ -7,14 +7,16 @@ use crate::engine::island::System;
 /// Series of the springs: d, s = |d|², p = 1/|d|, q = p², ρ = ½ ṡ q, σ = force on b over d.
 #[derive(Debug, Default)]
 pub(super) struct SpringSeries {
-    dx: Vec<Vec<f64>>,
-    dy: Vec<Vec<f64>>,
-    square: Vec<Vec<f64>>,
+    pub dx: Vec<Vec<f64>>,
+    pub dy: Vec<Vec<f64>>,
+    pub square: Vec<Vec<f64>>,
     inverse: Vec<Vec<f64>>,
     inverse_square: Vec<Vec<f64>>,
     rate: Vec<Vec<f64>>,
     factor: Vec<Vec<f64>>,
     sum: Vec<f64>,
+    /// Pulls and dampers that do not act for now, as coinciding ends have none.
+    pub hidden: Vec<bool>,
 }
 
 impl SpringSeries {
@@ -32,6 +34,7 @@ impl SpringSeries {
             room(series, n);
         }
         self.sum.resize(n, 0.0);
+        self.hidden.resize(n, false);
     }
 
     pub fn take_differences(&mut self, system: &System, x: &[Vec<f64>], y: &[Vec<f64>], k: usize) {
@@ -81,12 +84,15 @@ impl SpringSeries {
         }
     }
 
-    /// p = s^(−½): p_k = Σ_{j=1}^{k} (−½ j − (k − j)) s_j p_{k−j} / (k s₀); 0 for coinciding ends, which have no direction.
+    /// p = s^(−½): p_k = Σ_{j=1}^{k} (−½ j − (k − j)) s_j p_{k−j} / (k s₀); 0 for coinciding ends, which have no direction, and
+    /// where it is hidden.
     fn take_inverse(&mut self, k: usize) {
         let (before, after) = self.inverse.split_at_mut(k);
         let to = &mut after[0];
         if k == 0 {
-            to.iter_mut().zip(&self.square[0]).for_each(|(p, s)| *p = if *s > 0.0 { 1.0 / s.sqrt() } else { 0.0 });
+            for ((p, s), hidden) in to.iter_mut().zip(&self.square[0]).zip(&self.hidden) {
+                *p = if *s > 0.0 && !hidden { 1.0 / s.sqrt() } else { 0.0 };
+            }
             return;
         }
         to.fill(0.0);
