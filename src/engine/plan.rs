@@ -7,6 +7,7 @@ use super::constraint::WORLD;
 use super::constraint::form::{Form, Joint};
 use super::id::Id;
 use super::impact::MOST_TOGETHER;
+use super::integrate::pace::Pace;
 use super::island::partition::{Group, partition};
 use super::state::State;
 use super::world::Revision;
@@ -22,17 +23,11 @@ const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
 const LOCAL: f64 = 0.03;
 /// The same for series, whose estimate is held to it over all steps of a frame together.
-const LOCAL_SERIES: f64 = 0.05;
+const LOCAL_SERIES: f64 = 0.15;
 /// The same for Nyström's methods, whose estimate is a bound.
 const LOCAL_NYSTROM: f64 = 0.1;
 /// The same for methods of order 2, whose errors add up more evenly.
 const LOCAL_SECOND: f64 = 0.014;
-
-/// Accuracies down to which methods of order 2 cost least.
-const SECOND_ORDER: f64 = 6e-4;
-/// Accuracies down to which Nyström's methods cost least.
-const ORDER_4: f64 = 1e-5;
-const FINEST_NYSTROM: f64 = 1e-11;
 
 /// Walls with which free bodies are carried from event to event: each is looked at for each body.
 const MOST_WALLS: usize = 512;
@@ -85,18 +80,21 @@ pub struct Plan {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct IslandPlan {
     pub group: Group,
-    pub integrator: Integrator,
+    pub carrier: Carrier,
     /// Some body collides: in steps in which something is near the island goes through the substeps.
     pub guarded: bool,
-    /// Its rods close more than one loop, so that elimination fills in.
-    pub net: bool,
+    /// There are ropes; there is nothing but springs without dampers.
+    pub ropes: bool,
+    pub springs: bool,
     /// Anchors that turn with a disc; with none the angles are not among the unknowns.
     pub turning: usize,
+    /// Something that turns is damped.
+    pub damped: bool,
     /// What solves its rows, and in how many sweeps at most.
     pub linear: (LinearSolver, u32),
-    /// Local error allowed in a step, in parts of the island's size.
-    pub tolerance: f64,
-    /// The same where a series stands in.
+    /// Wanted error, in parts of the island's size.
+    pub accuracy: f64,
+    /// Error that a series may make in a step, in parts of it.
     pub series_tolerance: f64,
     /// Steps within a step of the world, where the integrator does not find them itself.
     pub steps: Option<u32>,
@@ -292,30 +290,43 @@ impl Plan {
         }
     }
 
-    /// Which integrators carry how many islands.
+    /// What carries how many islands.
     fn describe_islands(&self, sentence: &mut String, method: &Method) {
         let mut first = true;
+        let mut item = |count: usize, how: std::fmt::Arguments| {
+            if count > 0 {
+                let _ = write!(sentence, "{}{} {how}", if first { "" } else { ", " }, plural(count, "island"));
+                first = false;
+            }
+        };
+        let count = |which: &dyn Fn(&IslandPlan) -> bool| self.islands.iter().filter(|island| which(island)).count();
+        let cheapest = |island: &IslandPlan| island.carrier == Carrier::Cheapest;
+        item(
+            count(&|island| cheapest(island) && island.turning == 0),
+            format_args!("by the cheapest method within {:.0e}", method.accuracy),
+        );
+        let rattle = |island: &IslandPlan| {
+            island.turning > 0
+                && !island.damped
+                && !island.ropes
+                && island.accuracy >= crate::engine::island::SECOND_ORDER
+        };
+        item(
+            count(&|island| cheapest(island) && rattle(island)),
+            format_args!("by RATTLE within {:.0e}, Taylor series where it is stiff", method.accuracy),
+        );
+        item(
+            count(&|island| cheapest(island) && island.turning > 0 && !rattle(island)),
+            format_args!("by Taylor series to {:.0e}", method.accuracy),
+        );
         for integrator in Integrator::ALL {
-            let carried = || self.islands.iter().filter(|island| island.integrator == integrator);
-            let Some(island) = carried().next() else { continue };
-            let _ = write!(sentence, "{}{} by ", if first { "" } else { ", " }, plural(carried().count(), "island"));
-            first = false;
-            let _ = match (integrator, island.steps) {
-                (Integrator::Taylor, _) => write!(sentence, "Taylor series to {:.0e}", method.accuracy),
-                (_, Some(steps)) => {
-                    write!(sentence, "{}, {} a step", spoken(integrator), plural(steps as usize, "substep"))
-                }
-                (Integrator::Rattle, None) => {
-                    let turning = carried().filter(|island| island.turning > 0).count();
-                    let other = match carried().count() - turning {
-                        0 => "Taylor series",
-                        _ if turning > 0 => "the midpoint rule or Taylor series",
-                        _ => "the midpoint rule",
-                    };
-                    write!(sentence, "RATTLE within {:.0e}, {other} where it is stiff", method.accuracy)
-                }
-                (_, None) => write!(sentence, "{} within {:.0e}", spoken(integrator), method.accuracy),
-            };
+            let count = count(&|island| island.carrier == Carrier::ByHand(integrator));
+            if integrator == Integrator::Taylor {
+                item(count, format_args!("by Taylor series to {:.0e}", method.accuracy));
+            } else {
+                let steps = plural(method.substeps as usize, "substep");
+                item(count, format_args!("by {}, {steps} a step", spoken(integrator)));
+            }
         }
         sentence.push_str(&self.describe_linear(method));
         if self.islands.iter().any(|island| island.guarded) {
@@ -330,7 +341,7 @@ impl Plan {
     /// What solves the islands' rows.
     fn describe_linear(&self, method: &Method) -> String {
         // The midpoint rule has a Newton matrix of its own.
-        let takes = |island: &&IslandPlan| island.integrator != Integrator::EnergyMomentum;
+        let takes = |island: &&IslandPlan| island.carrier != Carrier::ByHand(Integrator::EnergyMomentum);
         let with = |linear| self.islands.iter().filter(takes).filter(move |island| island.linear.0 == linear).count();
         if method.linear == LinearSolver::SparseLdl || with(method.linear) == 0 && with(LinearSolver::SparseLdl) == 0 {
             return ", solved directly".to_owned();
@@ -424,9 +435,18 @@ impl Plan {
     }
 }
 
+/// What carries an island.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Carrier {
+    /// The integrator that a user chose, in so many substeps.
+    ByHand(Integrator),
+    /// The cheapest one that keeps the accuracy, found while running.
+    Cheapest,
+}
+
 impl IslandPlan {
-    /// How an island is carried. Ropes that tighten and slacken need events, which only the series has; it takes anchors that turn as
-    /// well, as does RATTLE. What Nyström's methods do not take goes by series too.
+    /// How an island is carried. By hand: ropes that tighten and slacken need events, which series and Radau's methods have; where anchors
+    /// turn, series and RATTLE take them. What Nyström's methods do not take goes by series too.
     fn of(world: &World, method: &Method, group: Group, turning: usize) -> IslandPlan {
         let kinds = || group.constraints.iter().map(|i| &world.constraints.kind[*i as usize]);
         let ropes = kinds().any(|kind| matches!(kind, Kind::Rope { .. }));
@@ -435,35 +455,54 @@ impl IslandPlan {
         let damper = |kind: &Kind| matches!(kind, Kind::Spring { damping, .. } if *damping > 0.0);
         // Where anchors turn, only the series takes what depends on velocities.
         let damped = turning > 0 && (world.drag > 0.0 || kinds().any(damper));
-        let integrator = match method.integrator {
-            _ if ropes => Integrator::Taylor,
-            _ if method.automatic && method.accuracy >= SECOND_ORDER && !damped => Integrator::Rattle,
-            Integrator::Rattle if turning > 0 && !method.automatic && !damped => Integrator::Rattle,
-            _ if turning > 0 => Integrator::Taylor,
-            _ if method.automatic && springs && method.accuracy >= FINEST_NYSTROM => {
-                if method.accuracy >= ORDER_4 {
-                    Integrator::Nystrom4
-                } else {
-                    Integrator::Nystrom6
-                }
-            }
-            _ if method.automatic => Integrator::Taylor,
-            Integrator::Nystrom4 | Integrator::Nystrom6 if !springs => Integrator::Taylor,
-            by_hand => by_hand,
+        let carrier = match method.integrator {
+            _ if method.automatic => Carrier::Cheapest,
+            Integrator::Rattle if turning > 0 && !damped && !ropes => Carrier::ByHand(Integrator::Rattle),
+            _ if turning > 0 => Carrier::ByHand(Integrator::Taylor),
+            by_hand @ (Integrator::Radau3 | Integrator::Radau5) => Carrier::ByHand(by_hand),
+            _ if ropes => Carrier::ByHand(Integrator::Taylor),
+            Integrator::Nystrom4 | Integrator::Nystrom6 if !springs => Carrier::ByHand(Integrator::Taylor),
+            by_hand => Carrier::ByHand(by_hand),
         };
-        let rigid = kinds().filter(|kind| !matches!(kind, Kind::Spring { .. })).count();
-        let net = rigid > group.bodies.len() + 1;
         let steps = (!method.automatic).then_some(method.substeps);
         let series_tolerance = LOCAL_SERIES * method.accuracy.min(LOOSEST_SERIES);
-        let tolerance = match integrator {
-            Integrator::Rattle => LOCAL_SECOND * method.accuracy,
-            Integrator::Nystrom4 | Integrator::Nystrom6 => LOCAL_NYSTROM * method.accuracy.min(LOOSEST_SERIES),
-            _ => series_tolerance,
-        };
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
         let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);
-        IslandPlan { group, integrator, guarded: false, net, turning, linear, tolerance, series_tolerance, steps }
+        let accuracy = method.accuracy;
+        IslandPlan {
+            group,
+            carrier,
+            guarded: false,
+            ropes,
+            springs,
+            turning,
+            damped,
+            linear,
+            accuracy,
+            series_tolerance,
+            steps,
+        }
+    }
+
+    /// What methods of order 2 are asked for on an island of this size [m].
+    pub fn pace(&self, length: f64) -> Pace {
+        self.steps.map_or(Pace::Within(LOCAL_SECOND * self.accuracy * length), Pace::Steps)
+    }
+
+    /// The same for Nyström's methods.
+    pub fn fine_pace(&self, length: f64) -> Pace {
+        self.steps.map_or(Pace::Within(LOCAL_NYSTROM * self.accuracy.min(LOOSEST_SERIES) * length), Pace::Steps)
+    }
+
+    /// The same for Radau's, which know how local errors add up.
+    pub fn whole_pace(&self, length: f64) -> Pace {
+        self.steps.map_or(Pace::Within(self.accuracy * length), Pace::Steps)
+    }
+
+    /// About the order that a series takes.
+    pub fn series_order(&self) -> f64 {
+        1.0 - 0.5 * libm::log(self.series_tolerance)
     }
 }
 

@@ -85,6 +85,8 @@ pub struct StepReport {
     pub redundant: usize,
     /// Islands that could not be carried to the accuracy in this step and went through the substeps instead.
     pub given_up: usize,
+    /// Islands carried whole whose accuracy could not be kept within the work that a step may cost.
+    pub lapsed: usize,
     /// Islands that something came near to in this step, so that they went through the substeps.
     pub near: usize,
     /// Sweeps of the solver, summed over the substeps.

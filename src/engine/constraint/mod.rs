@@ -12,6 +12,7 @@ mod spring;
 
 use super::error::{EngineError, check, check_point};
 use super::id::Id;
+use super::method::Integrator;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -143,8 +144,13 @@ pub struct Constraints {
 /// What an island found in a step about those to come, so that a fresh stepper goes on as the old one would.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Foresight {
-    /// Parts that an implicit method cut the step into; 0 if none did.
-    pub parts: f64,
+    /// What carried it; none if nothing is known.
+    pub integrator: Option<Integrator>,
+    /// Steps between the last two contests of methods, and to the next one.
+    pub interval: u32,
+    pub due: u32,
+    /// Parts that Radau's methods of 3 and 5 stages cut the step into; 0 if they did not.
+    pub parts: [f64; 2],
 }
 
 impl Constraints {

@@ -63,7 +63,10 @@ impl Series<'_> {
                     value(self.lambda, rope, t)
                 } else {
                     let (x, y) = (value(self.dx, rope, t), value(self.dy, rope, t));
-                    x * x + y * y - (1.0 + ROUNDING) * system.rods.square[rope]
+                    let beyond = x * x + y * y - (1.0 + ROUNDING) * system.rods.square[rope];
+                    // One that was let go a little too long, and grows shorter, does not tighten.
+                    let parting = x * rate(self.dx, rope, t) + y * rate(self.dy, rope, t);
+                    beyond.min(parting)
                 }
             };
             if let Some(at) = first_change(sign, until) {
@@ -88,6 +91,11 @@ impl Series<'_> {
 
 fn value(series: &[Vec<f64>], i: usize, t: f64) -> f64 {
     series.iter().rev().fold(0.0, |sum, c| sum * t + c[i])
+}
+
+/// The derivative of the same.
+fn rate(series: &[Vec<f64>], i: usize, t: f64) -> f64 {
+    series.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * t + k as f64 * c[i])
 }
 
 /// The first instant in (0, `until`] at which `sign` turns positive.

@@ -61,6 +61,8 @@ const ORDER_6: Scheme = Scheme {
 const TURN: f64 = 0.5;
 /// Most that an error counts as, in parts of what is allowed.
 const MOST_EXCESS: f64 = 1e4;
+/// Most steps for an accuracy, beyond what is stable.
+const MOST_WITHIN: f64 = 100.0;
 /// Times that the number of steps is corrected.
 const MOST_CHANGES: u32 = 4;
 
@@ -114,8 +116,9 @@ impl Nystrom {
                     return Outcome { retries: changes, steps: steps as u32, error, kept, ..fresh };
                 }
                 Run::Again(more) => {
-                    changes += 1;
-                    steps = more.min(super::MOST_STEPS);
+                    // What takes more is not carried well: the last run, as it comes out.
+                    changes = if more > MOST_WITHIN { MOST_CHANGES } else { changes + 1 };
+                    steps = more.min(MOST_WITHIN).max(steps);
                     restore(&self.start, system, &mut self.ax, &mut self.ay);
                 }
             }

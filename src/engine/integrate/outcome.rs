@@ -9,6 +9,8 @@ pub(crate) struct Outcome {
     /// Steps taken, and those taken back.
     pub steps: u32,
     pub retries: u32,
+    /// Newton iterations of Radau's methods.
+    pub solves: u32,
     /// Highest order used.
     pub order: u32,
     /// Estimate of the local errors' sum [m].
@@ -23,7 +25,7 @@ pub(crate) struct Outcome {
 
 impl Default for Outcome {
     fn default() -> Outcome {
-        Outcome { steps: 0, retries: 0, order: 0, error: 0.0, failed: false, stiff: false, kept: true }
+        Outcome { steps: 0, retries: 0, solves: 0, order: 0, error: 0.0, failed: false, stiff: false, kept: true }
     }
 }
 

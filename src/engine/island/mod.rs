@@ -7,6 +7,7 @@
 pub(crate) mod accelerations;
 pub(crate) mod forces;
 pub(crate) mod forest;
+mod ladder;
 pub(crate) mod lanes;
 pub(crate) mod linear;
 pub(crate) mod matrix;
@@ -18,9 +19,11 @@ pub(crate) mod projection;
 mod ropes;
 pub(crate) mod system;
 pub(crate) mod turning;
+mod work;
 
 mod stepping;
 
+pub(crate) use ladder::SECOND_ORDER;
 pub(crate) use nodes::Nodes;
 pub(crate) use stepping::Islands;
 pub(crate) use system::System;

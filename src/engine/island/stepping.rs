@@ -1,39 +1,22 @@
 //! Carries all islands of a plan through a step.
 
 use super::System;
+use super::ladder::Ladder;
 use super::near::{Surroundings, came_to_wall};
-use crate::engine::Integrator;
 use crate::engine::body::NO_ROTOR;
 use crate::engine::constraint::WORLD;
 use crate::engine::error::{LARGEST_COORDINATE, LARGEST_SPEED};
 use crate::engine::impact::{Fared, Few};
-use crate::engine::integrate::BUDGET;
-use crate::engine::integrate::energy_momentum::EnergyMomentum;
-use crate::engine::integrate::nystrom::Nystrom;
-use crate::engine::integrate::outcome::Outcome;
-use crate::engine::integrate::pace::Pace;
-use crate::engine::integrate::radau::{self, Radau};
-use crate::engine::integrate::rattle::Rattle;
-use crate::engine::integrate::rattle_turning::RattleTurning;
-use crate::engine::integrate::runge_kutta::RungeKutta;
-use crate::engine::integrate::taylor::Taylor;
 use crate::engine::plan::{IslandPlan, Plan};
 use crate::engine::report::StepReport;
 use crate::engine::world::World;
 use glam::DVec2;
 
-/// The islands of a plan, and the scratch memory that they share.
+/// The islands of a plan, and what carries them.
 #[derive(Debug, Default)]
 pub(crate) struct Islands {
     islands: Vec<(IslandPlan, System)>,
-    taylor: Taylor,
-    rattle: Rattle,
-    rattle_turning: RattleTurning,
-    runge_kutta: RungeKutta,
-    nystrom: Nystrom,
-    /// By island: it keeps the order in which the island is eliminated.
-    energy_momentum: Vec<EnergyMomentum>,
-    radau: Vec<Radau>,
+    ladder: Ladder,
     surroundings: Surroundings,
     /// Free bodies that can touch, if the plan has them carried; after the islands.
     few: Few,
@@ -46,16 +29,10 @@ impl Islands {
     pub fn build(&mut self, world: &World, plan: &Plan) {
         self.islands.clear();
         self.given_up.clear();
-        self.energy_momentum.clear();
-        self.energy_momentum.resize_with(plan.islands.len(), EnergyMomentum::default);
-        self.radau.clear();
-        self.radau.resize_with(plan.islands.len(), Radau::default);
+        self.ladder.clear();
         for plan in &plan.islands {
             let system = System::new(world, &plan.group.bodies, &plan.group.constraints, plan.linear);
-            if system.turns() {
-                // Stands in where RATTLE gives in.
-                self.taylor.reserve(&system);
-            }
+            self.ladder.add(&system);
             self.islands.push((plan.clone(), system));
         }
         self.few.build(plan.few.as_ref());
@@ -73,7 +50,8 @@ impl Islands {
                 report.near += 1;
                 continue;
             }
-            let (integrator, outcome) = self.carry(index, world, time);
+            let (plan, system) = &mut self.islands[index];
+            let (integrator, outcome) = self.ladder.carry(index, (plan, system), world, time);
             report.retries += outcome.retries;
             if let Some(linear) = &mut self.islands[index].1.matrix.linear {
                 let quality = std::mem::take(&mut linear.quality);
@@ -100,6 +78,7 @@ impl Islands {
             report.island_steps = report.island_steps.max(outcome.steps);
             report.order = report.order.max(outcome.order);
             report.local_error = report.local_error.max(outcome.error / system.length);
+            report.lapsed += usize::from(!outcome.kept);
             report.redundant += system.matrix.pivots.dropped;
         }
         report.given_up = self.given_up.len() - report.near;
@@ -114,67 +93,6 @@ impl Islands {
     /// Says in `flags` which of the free bodies were carried from event to event in this step.
     pub fn mark_carried(&self, flags: &mut [bool]) {
         self.few.mark_carried(flags);
-    }
-
-    /// Carries one island through `time` [s]; says what did it.
-    fn carry(&mut self, index: usize, world: &World, time: f64) -> (Integrator, Outcome) {
-        let (plan, system) = &mut self.islands[index];
-        system.load(world, time);
-        let tolerance = plan.tolerance * system.length;
-        let (pace, steps) = (plan.steps.map_or(Pace::Within(tolerance), Pace::Steps), plan.steps.unwrap_or(1));
-        let mut integrator = plan.integrator;
-        if matches!(integrator, Integrator::Nystrom4 | Integrator::Nystrom6) && !Nystrom::takes(system) {
-            // The mouse's hold has a damper.
-            integrator = Integrator::Taylor;
-        }
-        if integrator == Integrator::Rattle && system.turns() {
-            if RattleTurning::takes(system) {
-                let outcome = self.rattle_turning.advance(system, time, pace);
-                if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
-                    return (integrator, outcome);
-                }
-                system.load(world, time);
-            }
-            integrator = Integrator::Taylor;
-        }
-        if integrator == Integrator::Rattle {
-            // The factor of a net costs more than all else, and RATTLE takes one a substep.
-            if plan.steps.is_some() || !plan.net {
-                let outcome = self.rattle.advance(system, time, pace);
-                if plan.steps.is_some() || !(outcome.stiff || outcome.failed) {
-                    return (integrator, outcome);
-                }
-                if !outcome.stiff {
-                    system.load(world, time);
-                }
-            }
-            integrator = Integrator::EnergyMomentum;
-        }
-        let foresight = plan.group.constraints.first().map(|i| world.constraints.foresight[*i as usize]);
-        let foresight = foresight.unwrap_or_default();
-        let outcome = match integrator {
-            Integrator::Radau3 | Integrator::Radau5 if Radau::takes(system) => {
-                let member = if integrator == Integrator::Radau3 { radau::Member::Three } else { radau::Member::Five };
-                let parts = (foresight.parts > 0.0).then_some(foresight.parts);
-                let task = radau::Task { pace, member, parts, most: 512.0 };
-                let (outcome, parts) = self.radau[index].advance(system, time, &task);
-                system.foresight.parts = parts;
-                outcome
-            }
-            Integrator::EnergyMomentum => self.energy_momentum[index].advance(system, time, pace),
-            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
-            Integrator::Nystrom4 => self.nystrom.advance(system, time, pace, 4),
-            Integrator::Nystrom6 => self.nystrom.advance(system, time, pace, 6),
-            _ => self.taylor.advance(system, time, plan.series_tolerance * system.length, BUDGET),
-        };
-        if plan.steps.is_none() && !outcome.kept && integrator != Integrator::Taylor {
-            system.load(world, time);
-            let series = self.taylor.advance(system, time, plan.series_tolerance * system.length, BUDGET);
-            if !series.failed {
-                return (Integrator::Taylor, series);
-            }
-        }
-        (integrator, outcome)
     }
 
     /// Islands that the last [`Islands::advance`] gave up, by index in the plan, ascending.

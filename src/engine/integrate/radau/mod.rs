@@ -48,12 +48,12 @@ const BY_HAND: f64 = 1e-15;
 /// The estimate of steps of a sixtieth over the error that they leave in a second or two of motion, by number of stages. Steps of another
 /// length add up as independent errors do. Measured: 3 stages 1.1–3, 5 stages 5–11 on heavily loaded ropes, more where all is damped.
 const CAUTION_3: f64 = 2.0;
-const CAUTION_5: f64 = 8.0;
+const CAUTION_5: f64 = 10.0;
 const USUAL: f64 = 1.0 / 60.0;
 /// An estimate below this part of what is allowed lets the next step be twice as long.
-const SMALL: f64 = 1.0 / 12.0;
+const SMALL: f64 = 1.0 / 7.0;
 /// Parts of the time at the start, where none are known.
-const FIRST: f64 = 4.0;
+const FIRST: f64 = 2.0;
 /// C after a step, in parts of L², beyond which the step is taken back.
 const FAR: f64 = 1e-3;
 /// Parts of the time that Newton's method may need, whatever the accuracy.
@@ -180,6 +180,8 @@ struct Steps<const S: usize, const L: usize> {
     start: [Vec<f64>; 4],
     start_lambda: Vec<f64>,
     start_pins: Vec<DVec2>,
+    /// Newton iterations of all steps.
+    solves: u32,
 }
 
 impl<const S: usize, const L: usize> Steps<S, L> {
@@ -193,17 +195,22 @@ impl<const S: usize, const L: usize> Steps<S, L> {
             start: std::array::from_fn(|_| Vec::new()),
             start_lambda: Vec::new(),
             start_pins: Vec::new(),
+            solves: 0,
         }
     }
 
     fn advance(&mut self, system: &mut System, time: f64, task: &Task, caution: f64) -> (Outcome, f64) {
         let mut outcome = Outcome { order: self.stages.scheme.order, kept: true, ..Outcome::default() };
+        self.solves = 0;
         let failed = |outcome: Outcome| (Outcome { failed: true, ..outcome }, FIRST);
         let tolerance = match task.pace {
             Pace::Steps(_) => f64::INFINITY,
             Pace::Within(tolerance) => tolerance,
         };
-        let tight = (TIGHT * tolerance).min(BY_HAND * system.length).max(LEAST * system.length);
+        let tight = match task.pace {
+            Pace::Steps(_) => BY_HAND * system.length,
+            Pace::Within(tolerance) => (TIGHT * tolerance).max(LEAST * system.length),
+        };
         let mut h = match task.pace {
             Pace::Steps(steps) => time / f64::from(steps),
             Pace::Within(_) => time / task.parts.unwrap_or(FIRST).clamp(1.0, task.most.max(1.0)),
@@ -252,6 +259,7 @@ impl<const S: usize, const L: usize> Steps<S, L> {
             }
         }
         outcome.error = squares.sqrt();
+        outcome.solves = self.solves;
         (outcome, (time / h).clamp(1.0, FINEST))
     }
 
@@ -282,6 +290,7 @@ impl<const S: usize, const L: usize> Steps<S, L> {
         let (mut last, mut before, mut renewed) = (f64::INFINITY, f64::INFINITY, false);
         for iteration in 0..if factored { MOST_ITERATIONS } else { 0 } {
             let moved = self.solver.iterate(system, &mut self.stages);
+            self.solves += 1;
             // Nothing is known of the convergence in the first iteration.
             let part = if iteration == 0 { 1.0 } else { moved / last };
             let next = if part < 1.0 { moved * part / (1.0 - part) } else { moved };
@@ -349,12 +358,19 @@ impl<const S: usize, const L: usize> Steps<S, L> {
                 first_change(|t| lambda.at(t), until)
             } else {
                 let (a, b) = (rods.a[rope] as usize, rods.b[rope] as usize);
-                let [d, ..] = self.stages.between(a, b);
+                let [d, w, _] = self.stages.between(a, b);
                 let scheme = &self.stages.scheme.nodes;
                 let x = Interpolation::from_start(scheme, &d[0], nodes.x[b] - nodes.x[a]);
                 let y = Interpolation::from_start(scheme, &d[1], nodes.y[b] - nodes.y[a]);
+                let vx = Interpolation::from_start(scheme, &w[0], nodes.vx[b] - nodes.vx[a]);
+                let vy = Interpolation::from_start(scheme, &w[1], nodes.vy[b] - nodes.vy[a]);
                 let square = (1.0 + LET_GO) * rods.square[rope];
-                first_change(|t| x.at(t) * x.at(t) + y.at(t) * y.at(t) - square, until)
+                // One that was let go a little too long, and grows shorter, does not tighten.
+                let tightens = |t: f64| {
+                    let (x, y) = (x.at(t), y.at(t));
+                    (x * x + y * y - square).min(x * vx.at(t) + y * vy.at(t))
+                };
+                first_change(tightens, until)
             };
             if let Some(at) = at {
                 first = Some((at, Event::Rope { rope, taut: !taut }));

@@ -1,0 +1,383 @@
+//! Which method carries an island through a step, and what takes its place where it fails.
+//!
+//! By hand it is the chosen one. By accuracy it is the cheapest that keeps it, found by trying: in a contest the method in use and all
+//! others that could be cheaper by what the motion asks of them at least (its fastest swing and turn) carry the island through the same
+//! step, each until it has cost as much as the best before it. Contests come after 2, 4, 8, … 64 steps, and at once where a method fails or
+//! does not keep the accuracy. What they find is kept with the world, so that a fresh stepper goes on alike.
+//!
+//! Where no method keeps the accuracy within the work that a step may cost, the best result is taken, and the outcome says so.
+
+use super::System;
+use super::accelerations::Rates;
+use super::forest::Forest;
+use super::work::Work;
+use crate::engine::constraint::Foresight;
+use crate::engine::integrate::BUDGET;
+use crate::engine::integrate::energy_momentum::EnergyMomentum;
+use crate::engine::integrate::nystrom::Nystrom;
+use crate::engine::integrate::outcome::Outcome;
+use crate::engine::integrate::radau::{Member, Radau, Task};
+use crate::engine::integrate::rattle::Rattle;
+use crate::engine::integrate::rattle_turning::RattleTurning;
+use crate::engine::integrate::runge_kutta::RungeKutta;
+use crate::engine::integrate::taylor::Taylor;
+use crate::engine::method::Integrator;
+use crate::engine::plan::{Carrier, IslandPlan};
+use crate::engine::world::World;
+use glam::DVec2;
+
+/// Steps of the world between two contests, at most.
+const RAREST: u32 = 64;
+/// A challenger must cost less than this part of the method in use.
+const WORTH: f64 = 0.9;
+/// Accuracies down to which methods of order 2, 4 and 5 are tried.
+pub(crate) const SECOND_ORDER: f64 = 3e-5;
+const FOURTH_ORDER: f64 = 1e-9;
+const FIFTH_ORDER: f64 = 1e-8;
+/// Radians of the fastest swing that a step of a series takes at most.
+const SERIES_SWING: f64 = 6.0;
+/// What a step may cost at most, in parts of the time that it simulates: a little more than real time, as work is only estimated.
+const DEAREST: f64 = 2.0;
+
+/// The methods, and their scratch memory.
+#[derive(Debug, Default)]
+pub(crate) struct Ladder {
+    taylor: Taylor,
+    rattle: Rattle,
+    rattle_turning: RattleTurning,
+    runge_kutta: RungeKutta,
+    nystrom: Nystrom,
+    /// By island: they keep the order in which it is eliminated.
+    own: Vec<Own>,
+    /// All islands' links.
+    links: f64,
+    load: Vec<f64>,
+    best: Result,
+}
+
+/// What belongs to one island.
+#[derive(Debug)]
+struct Own {
+    energy_momentum: EnergyMomentum,
+    radau: Radau,
+    work: Work,
+}
+
+/// An island after a step.
+#[derive(Debug, Default)]
+struct Result {
+    coordinates: [Vec<f64>; 4],
+    rods: Vec<f64>,
+    held: Vec<bool>,
+    pins: Vec<DVec2>,
+    parts: [f64; 2],
+}
+
+/// A method's try.
+#[derive(Clone, Copy, Debug)]
+struct Try {
+    integrator: Integrator,
+    outcome: Outcome,
+    work: f64,
+}
+
+impl Try {
+    /// Whether this one is to be preferred to what was the best so far.
+    fn beats(&self, best: &Try, worth: f64) -> bool {
+        match (self.outcome.kept, best.outcome.kept) {
+            (true, true) => self.work < worth * best.work,
+            (false, false) => self.outcome.error < best.outcome.error,
+            (kept, _) => kept,
+        }
+    }
+}
+
+impl Ladder {
+    /// Forgets all islands.
+    pub fn clear(&mut self) {
+        self.own.clear();
+        self.links = 0.0;
+    }
+
+    /// Makes room for one more island.
+    pub fn add(&mut self, system: &System) {
+        if system.turns() {
+            // Stands in where RATTLE gives in.
+            self.taylor.reserve(system);
+        }
+        let tree = !system.turns() && Forest::new(system).is_some();
+        let work = Work::new(system, tree);
+        self.links += work.links();
+        self.own.push(Own { energy_momentum: EnergyMomentum::default(), radau: Radau::default(), work });
+    }
+
+    /// Carries an island through `time` [s]; says what did it.
+    pub fn carry(
+        &mut self,
+        index: usize,
+        (plan, system): (&IslandPlan, &mut System),
+        world: &World,
+        time: f64,
+    ) -> (Integrator, Outcome) {
+        system.load(world, time);
+        let foresight = plan.group.constraints.first().map(|i| world.constraints.foresight[*i as usize]);
+        system.foresight = foresight.unwrap_or_default();
+        match plan.carrier {
+            Carrier::ByHand(integrator) => self.by_hand(index, (plan, system), integrator, (world, time)),
+            Carrier::Cheapest if system.turns() => self.turning((plan, system), (world, time)),
+            Carrier::Cheapest => self.cheapest(index, (plan, system), (world, time)),
+        }
+    }
+
+    /// The method chosen, or series for what it does not take.
+    fn by_hand(
+        &mut self,
+        index: usize,
+        (plan, system): (&IslandPlan, &mut System),
+        integrator: Integrator,
+        (world, time): (&World, f64),
+    ) -> (Integrator, Outcome) {
+        let takes = match integrator {
+            Integrator::Nystrom4 | Integrator::Nystrom6 => Nystrom::takes(system),
+            Integrator::Radau3 | Integrator::Radau5 => Radau::takes(system),
+            Integrator::Rattle if system.turns() => return self.turning((plan, system), (world, time)),
+            _ => true,
+        };
+        let integrator = if takes { integrator } else { Integrator::Taylor };
+        (integrator, self.run(index, (plan, system), integrator, time, f64::INFINITY))
+    }
+
+    /// An island whose discs anchors turn: RATTLE, or series.
+    fn turning(
+        &mut self,
+        (plan, system): (&IslandPlan, &mut System),
+        (world, time): (&World, f64),
+    ) -> (Integrator, Outcome) {
+        let second_order = plan.carrier != Carrier::Cheapest || plan.accuracy >= SECOND_ORDER;
+        if second_order && RattleTurning::takes(system) {
+            let outcome = self.rattle_turning.advance(system, time, plan.pace(system.length));
+            if plan.steps.is_some() || (outcome.kept && !outcome.stiff && !outcome.failed) {
+                return (Integrator::Rattle, outcome);
+            }
+            system.load(world, time);
+        }
+        (Integrator::Taylor, self.taylor.advance(system, time, plan.series_tolerance * system.length, BUDGET))
+    }
+
+    /// The cheapest method that keeps the accuracy.
+    fn cheapest(
+        &mut self,
+        index: usize,
+        (plan, system): (&IslandPlan, &mut System),
+        (world, time): (&World, f64),
+    ) -> (Integrator, Outcome) {
+        if plan.group.constraints.is_empty() {
+            // Free fall is exact with both.
+            let integrator = if system.damped() { Integrator::Taylor } else { Integrator::Rattle };
+            return (integrator, self.run(index, (plan, system), integrator, time, f64::INFINITY));
+        }
+        let most = DEAREST * 1e9 * time * self.own[index].work.links() / self.links;
+        let mut foresight = system.foresight;
+        let mut first = None;
+        if let Some(integrator) = foresight.integrator.filter(|integrator| plan.takes(*integrator)) {
+            let tried = self.attempt(index, (plan, system), integrator, time, most);
+            foresight.parts = system.foresight.parts;
+            if tried.outcome.kept && !tried.outcome.failed && foresight.due > 1 {
+                system.foresight = Foresight { due: foresight.due - 1, ..foresight };
+                return (integrator, tried.outcome);
+            }
+            first = Some(tried);
+        }
+        let best = self.contest(index, (plan, system), (world, time), first, most);
+        let stays = foresight.integrator == Some(best.integrator) && best.outcome.kept;
+        let interval = if stays { (2 * foresight.interval).clamp(2, RAREST) } else { 2 };
+        let integrator = Some(best.integrator).filter(|_| !best.outcome.failed);
+        system.foresight = Foresight { integrator, interval, due: interval, parts: system.foresight.parts };
+        (best.integrator, best.outcome)
+    }
+
+    /// Tries all that could be cheaper than `first`, the result of which the island holds; leaves the best result in it.
+    fn contest(
+        &mut self,
+        index: usize,
+        (plan, system): (&IslandPlan, &mut System),
+        (world, time): (&World, f64),
+        first: Option<Try>,
+        most: f64,
+    ) -> Try {
+        let failed =
+            Try { integrator: Integrator::Taylor, outcome: Outcome { failed: true, ..Outcome::default() }, work: 0.0 };
+        let mut best = first.filter(|first| !first.outcome.failed);
+        if best.is_some() {
+            self.best.keep(system);
+        }
+        let parts = system.foresight.parts;
+        self.reload(system, world, time, parts);
+        let rates = system.rates(&mut self.load);
+        let mut least = RUNGS.map(|integrator| (self.least(index, integrator, &rates, time), integrator));
+        least.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (mut untouched, mut holds_best) = (true, false);
+        for (bound, integrator) in least {
+            let known = first.is_some_and(|first| first.integrator == integrator);
+            if known || !plan.takes(integrator) || !takes(integrator, system) {
+                continue;
+            }
+            let limit = best.filter(|best| best.outcome.kept).map_or(most, |best| best.work.min(most));
+            if bound > limit && best.is_some() {
+                continue;
+            }
+            if !untouched {
+                let parts = system.foresight.parts;
+                self.reload(system, world, time, parts);
+            }
+            let tried = self.attempt(index, (plan, system), integrator, time, limit);
+            (untouched, holds_best) = (false, false);
+            // The one in use stays unless another one is clearly cheaper.
+            let worth = if best.is_some_and(|best| first.is_some_and(|f| f.integrator == best.integrator)) {
+                WORTH
+            } else {
+                1.0
+            };
+            if !tried.outcome.failed && best.is_none_or(|best| tried.beats(&best, worth)) {
+                best = Some(tried);
+                self.best.keep(system);
+                holds_best = true;
+            }
+        }
+        if best.is_some() && !holds_best {
+            self.best.restore(system);
+        }
+        best.unwrap_or(failed)
+    }
+
+    fn reload(&self, system: &mut System, world: &World, time: f64, parts: [f64; 2]) {
+        system.load(world, time);
+        system.foresight.parts = parts;
+    }
+
+    /// Least work of a method on a motion with these rates [ns].
+    fn least(&self, index: usize, integrator: Integrator, rates: &Rates, time: f64) -> f64 {
+        let own = &self.own[index];
+        let steps = |most_turn: f64, most_swing: f64| {
+            libm::ceil(time * (rates.turn / most_turn).max(rates.swing / most_swing)).max(1.0)
+        };
+        let (steps, order, solves) = match integrator {
+            Integrator::Rattle => (steps(0.7, 1.8), 2.0, 0.0),
+            Integrator::Nystrom4 => (steps(f64::INFINITY, 5.0), 4.0, 0.0),
+            Integrator::Nystrom6 => (steps(f64::INFINITY, 9.0), 6.0, 0.0),
+            Integrator::Taylor => (steps(f64::INFINITY, SERIES_SWING), 5.0, 0.0),
+            Integrator::Radau3 | Integrator::Radau5 => (1.0, 5.0, 2.0),
+            _ => (1.0, 2.0, 1.0),
+        };
+        own.work.of(integrator, steps, order, solves)
+    }
+
+    fn attempt(
+        &mut self,
+        index: usize,
+        (plan, system): (&IslandPlan, &mut System),
+        integrator: Integrator,
+        time: f64,
+        limit: f64,
+    ) -> Try {
+        let outcome = self.run(index, (plan, system), integrator, time, limit);
+        let work = self.own[index].work.done(integrator, &outcome);
+        let failed = outcome.failed || outcome.stiff;
+        Try { integrator, outcome: Outcome { failed, kept: outcome.kept && !failed, ..outcome }, work }
+    }
+
+    /// Runs one method, within about `limit` [ns] where it can be told.
+    fn run(
+        &mut self,
+        index: usize,
+        (plan, system): (&IslandPlan, &mut System),
+        integrator: Integrator,
+        time: f64,
+        limit: f64,
+    ) -> Outcome {
+        let (pace, steps) = (plan.pace(system.length), plan.steps.unwrap_or(1));
+        let own = &mut self.own[index];
+        let most = |order: f64, solves: f64| {
+            (limit / own.work.of(integrator, 1.0, order, solves)).clamp(1.0, 4.0 * f64::from(BUDGET))
+        };
+        match integrator {
+            Integrator::Rattle => self.rattle.advance(system, time, pace),
+            Integrator::EnergyMomentum => own.energy_momentum.advance(system, time, pace),
+            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
+            Integrator::Nystrom4 => self.nystrom.advance(system, time, plan.fine_pace(system.length), 4),
+            Integrator::Nystrom6 => self.nystrom.advance(system, time, plan.fine_pace(system.length), 6),
+            Integrator::Radau3 | Integrator::Radau5 => {
+                let five = usize::from(integrator == Integrator::Radau5);
+                let member = [Member::Three, Member::Five][five];
+                let parts = Some(system.foresight.parts[five]).filter(|parts| *parts > 0.0);
+                let task =
+                    Task { pace: plan.whole_pace(system.length), member, parts, most: most(5.0, 3.0).min(1024.0) };
+                let (outcome, parts) = own.radau.advance(system, time, &task);
+                system.foresight.parts[five] = parts;
+                outcome
+            }
+            _ => {
+                let tolerance = plan.series_tolerance * system.length;
+                let order = plan.series_order();
+                let budget = if limit.is_finite() { most(order, 0.0) as u32 } else { BUDGET };
+                self.taylor.advance(system, time, tolerance, budget.max(1))
+            }
+        }
+    }
+}
+
+/// The methods that a contest may try.
+const RUNGS: [Integrator; 7] = [
+    Integrator::Rattle,
+    Integrator::EnergyMomentum,
+    Integrator::Nystrom4,
+    Integrator::Nystrom6,
+    Integrator::Taylor,
+    Integrator::Radau3,
+    Integrator::Radau5,
+];
+
+/// Whether a method takes an island as it is now, with the mouse's hold.
+fn takes(integrator: Integrator, system: &System) -> bool {
+    !matches!(integrator, Integrator::Nystrom4 | Integrator::Nystrom6) || Nystrom::takes(system)
+}
+
+impl IslandPlan {
+    /// Whether a contest may try a method: by its order, and by what it takes.
+    pub fn takes(&self, integrator: Integrator) -> bool {
+        match integrator {
+            // Ropes that tighten and slacken need events.
+            Integrator::Rattle | Integrator::EnergyMomentum => self.accuracy >= SECOND_ORDER && !self.ropes,
+            Integrator::Nystrom4 => self.accuracy >= FOURTH_ORDER && self.springs,
+            Integrator::Nystrom6 => self.springs,
+            Integrator::Radau3 => self.accuracy >= FIFTH_ORDER,
+            Integrator::Taylor | Integrator::Radau5 => true,
+            _ => false,
+        }
+    }
+}
+
+impl Result {
+    fn keep(&mut self, system: &System) {
+        let nodes = &system.nodes;
+        for (to, from) in self.coordinates.iter_mut().zip([&nodes.x, &nodes.y, &nodes.vx, &nodes.vy]) {
+            to.clone_from(from);
+        }
+        self.rods.clone_from(&system.rods.lambda);
+        self.held.clone_from(&system.rods.held);
+        self.pins.clone_from(&system.pins.lambda);
+        self.parts = system.foresight.parts;
+    }
+
+    fn restore(&self, system: &mut System) {
+        for (to, from) in system.nodes.coordinates().into_iter().zip(&self.coordinates) {
+            to.copy_from_slice(from);
+        }
+        system.rods.lambda.copy_from_slice(&self.rods);
+        system.rods.held.copy_from_slice(&self.held);
+        system.pins.lambda.copy_from_slice(&self.pins);
+        // What was learnt since is not forgotten.
+        let learnt = system.foresight.parts;
+        system.foresight.parts = std::array::from_fn(|i| if learnt[i] > 0.0 { learnt[i] } else { self.parts[i] });
+    }
+}
