@@ -129,5 +129,5 @@ fn the_plan_says_what_it_carries_and_what_it_leaves_to_the_substeps() {
     let stack = sentence("stack");
     assert!(stack.contains("10 free bodies from impact to impact in closed form"), "{stack}");
     let pile = sentence("pile");
-    assert!(pile.contains("2000 bodies can touch and go through the substeps"), "{pile}");
+    assert!(pile.contains("heaps of more than 128 through the substeps"), "{pile}");
 }
