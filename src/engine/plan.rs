@@ -309,7 +309,7 @@ impl Plan {
             island.turning > 0
                 && !island.damped
                 && !island.ropes
-                && island.accuracy >= crate::engine::island::SECOND_ORDER
+                && island.accuracy >= crate::engine::island::TURNING_SECOND_ORDER
         };
         item(
             count(&|island| cheapest(island) && rattle(island)),

@@ -31,7 +31,9 @@ const RAREST: u32 = 64;
 /// A challenger must cost less than this part of the method in use.
 const WORTH: f64 = 0.9;
 /// Accuracies down to which methods of order 2, 4 and 5 are tried.
-pub(crate) const SECOND_ORDER: f64 = 3e-5;
+const SECOND_ORDER: f64 = 3e-5;
+/// Where anchors turn there is no contest: accuracies down to which RATTLE costs less than series.
+pub(crate) const TURNING_SECOND_ORDER: f64 = 6e-4;
 const FOURTH_ORDER: f64 = 1e-9;
 const FIFTH_ORDER: f64 = 1e-8;
 /// Radians of the fastest swing that a step of a series takes at most.
@@ -153,7 +155,7 @@ impl Ladder {
         (plan, system): (&IslandPlan, &mut System),
         (world, time): (&World, f64),
     ) -> (Integrator, Outcome) {
-        let second_order = plan.carrier != Carrier::Cheapest || plan.accuracy >= SECOND_ORDER;
+        let second_order = plan.carrier != Carrier::Cheapest || plan.accuracy >= TURNING_SECOND_ORDER;
         if second_order && RattleTurning::takes(system) {
             let outcome = self.rattle_turning.advance(system, time, plan.pace(system.length));
             if plan.steps.is_some() || (outcome.kept && !outcome.stiff && !outcome.failed) {

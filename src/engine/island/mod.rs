@@ -23,7 +23,7 @@ mod work;
 
 mod stepping;
 
-pub(crate) use ladder::SECOND_ORDER;
+pub(crate) use ladder::TURNING_SECOND_ORDER;
 pub(crate) use nodes::Nodes;
 pub(crate) use stepping::Islands;
 pub(crate) use system::System;
