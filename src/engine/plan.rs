@@ -23,11 +23,14 @@ const DAMPER_LIMIT: f64 = 0.5;
 /// Local error of a step over the wanted accuracy: errors grow as they are carried on.
 const LOCAL: f64 = 0.03;
 /// The same for series, whose estimate is held to it over all steps of a frame together.
-const LOCAL_SERIES: f64 = 0.15;
+const LOCAL_SERIES: f64 = 0.1;
+/// The same where anchors turn, which carry errors on faster.
+const LOCAL_TURNING: f64 = 0.08;
 /// The same for Nyström's methods, whose estimate is a bound.
-const LOCAL_NYSTROM: f64 = 0.1;
+const LOCAL_NYSTROM: f64 = 0.07;
 /// The same for methods of order 2, whose errors add up more evenly.
-const LOCAL_SECOND: f64 = 0.014;
+const LOCAL_SECOND: f64 = 0.016;
+const LOCAL_SECOND_TURNING: f64 = 0.014;
 
 /// Walls with which free bodies are carried from event to event: each is looked at for each body.
 const MOST_WALLS: usize = 512;
@@ -465,7 +468,8 @@ impl IslandPlan {
             by_hand => Carrier::ByHand(by_hand),
         };
         let steps = (!method.automatic).then_some(method.substeps);
-        let series_tolerance = LOCAL_SERIES * method.accuracy.min(LOOSEST_SERIES);
+        let local = if turning > 0 { LOCAL_TURNING } else { LOCAL_SERIES };
+        let series_tolerance = local * method.accuracy.min(LOOSEST_SERIES);
         let rows: usize = kinds().map(|kind| if matches!(kind, Kind::Pin) { 2 } else { 1 }).sum();
         let fits = !method.linear.is_dense() || rows <= LinearSolver::MOST_DENSE;
         let linear = (if fits { method.linear } else { LinearSolver::SparseLdl }, method.iterations);
@@ -487,7 +491,9 @@ impl IslandPlan {
 
     /// What methods of order 2 are asked for on an island of this size [m].
     pub fn pace(&self, length: f64) -> Pace {
-        self.steps.map_or(Pace::Within(LOCAL_SECOND * self.accuracy * length), Pace::Steps)
+        // RATTLE with anchors that turn does not know how errors of the velocity are carried on.
+        let local = if self.turning > 0 { LOCAL_SECOND_TURNING } else { LOCAL_SECOND };
+        self.steps.map_or(Pace::Within(local * self.accuracy * length), Pace::Steps)
     }
 
     /// The same for Nyström's methods.

@@ -20,7 +20,7 @@ fn cases() -> Vec<PathBuf> {
 
 /// RMS distance of the scene's motion by accuracy from the truth, in parts of its length, and in how many steps something was given up.
 fn run(scene: &Path, truth: &Trajectory, accuracy: f64) -> (f64, usize) {
-    let mut world = scene::open(&scene).unwrap().world;
+    let mut world = scene::open(scene).unwrap().world;
     let mut stepper = Stepper::new(Method { automatic: true, accuracy, ..Method::default() }).unwrap();
     let (mut motion, mut given_up) = (vec![world.bodies().position.clone()], 0);
     for _ in 1..truth.times.len() {

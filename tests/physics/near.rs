@@ -34,7 +34,7 @@ fn a_pendulum_swings_exactly_until_it_hits_and_hands_its_speed_on() {
         stepper
             .plan(&world)
             .sentence()
-            .contains("2 islands by Taylor series to 1e-10, solved directly while nothing is near")
+            .contains("2 islands by the cheapest method within 1e-10, solved directly while nothing is near")
     );
     // A quarter of the period of a pendulum released at 90°, K(½) √(L/g), K(½) = 1.8541.
     let quarter = 1.854_074_677_301_372 * (1.0f64 / 9.81).sqrt();

@@ -123,7 +123,7 @@ fn redundant_rods_are_dropped_and_contradictory_ones_given_up() {
 fn the_plan_says_what_it_carries_and_what_it_leaves_to_the_substeps() {
     let heavy = scene::open("heavy_rope").unwrap();
     let mut stepper = Stepper::new(heavy.method).unwrap();
-    assert!(stepper.plan(&heavy.world).sentence().contains("1 island by Taylor series to 1e-9"));
+    assert!(stepper.plan(&heavy.world).sentence().contains("1 island by the cheapest method within 1e-9"));
     let sentence =
         |name| Stepper::new(by_accuracy(1e-9)).unwrap().plan(&scene::open(name).unwrap().world).sentence().to_owned();
     let stack = sentence("stack");

@@ -144,9 +144,9 @@ pub struct Constraints {
 /// What an island found in a step about those to come, so that a fresh stepper goes on as the old one would.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Foresight {
-    /// What carried it; none if nothing is known.
+    /// What carried it; none if nothing is known, or nothing could.
     pub integrator: Option<Integrator>,
-    /// Steps between the last two contests of methods, and to the next one.
+    /// Steps between the last two contests of methods, and to the next one; or steps for which it is left to the substeps.
     pub interval: u32,
     pub due: u32,
     /// Parts that Radau's methods of 3 and 5 stages cut the step into; 0 if they did not.

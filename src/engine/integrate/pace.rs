@@ -22,6 +22,17 @@ impl Pace {
     }
 }
 
+/// What the velocity's error makes of a smooth motion's within a second, in parts of the local errors of steps as long as the time: most of
+/// it is in the estimates of chains and trees, little in those of nets.
+pub(super) const SMOOTH: f64 = 6.0;
+pub(super) const SMOOTH_NET: f64 = 60.0;
+
+/// Factor on the local errors of equal steps of a method of order 2. Where one step does for the time the motion is smooth, and errors of the
+/// velocity are carried on in one direction; where many are needed it swings, and they come to nothing.
+pub(super) fn carried_on(steps: f64, smooth: f64) -> f64 {
+    1.0 + smooth / (steps * steps * steps)
+}
+
 /// The steps to take instead of `steps`, where the local errors' sum is `excess` times what is allowed and falls with the power
 /// `order` of the number of steps; none if they will do.
 pub(super) fn steps_within(steps: f64, excess: f64, order: f64) -> Option<f64> {

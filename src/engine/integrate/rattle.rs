@@ -14,7 +14,7 @@
 //! h ω = 2: the step is cut before, and all steps are halved where the iterations do not converge.
 
 use super::outcome::Outcome;
-use super::pace::{Pace, steps_within};
+use super::pace::{Pace, SMOOTH, carried_on, steps_within};
 use crate::engine::island::System;
 
 /// Largest turn of a rod and largest h ω in a step.
@@ -196,7 +196,8 @@ impl Rattle {
             }
             if step == 0 {
                 error = self.renew_accelerations_and_tell(system, h, damped);
-                if let Some(more) = steps_within(steps, steps * error / tolerance, 2.0) {
+                let expected = carried_on(steps, SMOOTH) * steps * error;
+                if let Some(more) = steps_within(steps, expected / tolerance, 2.0) {
                     return Run::Again(more);
                 }
             } else {
@@ -212,6 +213,7 @@ impl Rattle {
             // Nothing tells how long it was on the wrong side.
             error = system.length;
         }
+        error *= carried_on(steps, SMOOTH);
         if let Some(more) = steps_within(steps, (error / tolerance).min(MOST_EXCESS), 2.0) {
             return Run::Again(more);
         }

@@ -28,13 +28,16 @@ use glam::DVec2;
 
 /// Steps of the world between two contests, at most.
 const RAREST: u32 = 64;
+/// Steps of the world that an island which no method can carry is left to the substeps, at most, before it is tried again: trying costs
+/// all that a step may.
+const LONGEST_WAIT: u32 = 16;
 /// A challenger must cost less than this part of the method in use.
 const WORTH: f64 = 0.9;
 /// Accuracies down to which methods of order 2, 4 and 5 are tried.
 const SECOND_ORDER: f64 = 3e-5;
 /// Where anchors turn there is no contest: accuracies down to which RATTLE costs less than series.
 pub(crate) const TURNING_SECOND_ORDER: f64 = 6e-4;
-const FOURTH_ORDER: f64 = 1e-9;
+const FOURTH_ORDER: f64 = 5e-8;
 const FIFTH_ORDER: f64 = 1e-8;
 /// Radians of the fastest swing that a step of a series takes at most.
 const SERIES_SWING: f64 = 6.0;
@@ -123,12 +126,25 @@ impl Ladder {
     ) -> (Integrator, Outcome) {
         system.load(world, time);
         let foresight = plan.group.constraints.first().map(|i| world.constraints.foresight[*i as usize]);
-        system.foresight = foresight.unwrap_or_default();
-        match plan.carrier {
+        let foresight = foresight.unwrap_or_default();
+        system.foresight = foresight;
+        if foresight.integrator.is_none() && foresight.due > 1 {
+            system.foresight.due -= 1;
+            return (Integrator::Taylor, Outcome { failed: true, ..Outcome::default() });
+        }
+        let (integrator, outcome) = match plan.carrier {
             Carrier::ByHand(integrator) => self.by_hand(index, (plan, system), integrator, (world, time)),
             Carrier::Cheapest if system.turns() => self.turning((plan, system), (world, time)),
             Carrier::Cheapest => self.cheapest(index, (plan, system), (world, time)),
+        };
+        if outcome.failed {
+            let again = foresight.integrator.is_none() && foresight.interval > 0;
+            let wait = if again { (2 * foresight.interval).min(LONGEST_WAIT) } else { 1 };
+            system.foresight = Foresight { integrator: None, interval: wait, due: wait, ..system.foresight };
+        } else if system.foresight.integrator.is_none() {
+            system.foresight = Foresight { integrator: Some(integrator), interval: 0, due: 0, ..system.foresight };
         }
+        (integrator, outcome)
     }
 
     /// The method chosen, or series for what it does not take.
@@ -181,7 +197,15 @@ impl Ladder {
         let most = DEAREST * 1e9 * time * self.own[index].work.links() / self.links;
         let mut foresight = system.foresight;
         let mut first = None;
-        if let Some(integrator) = foresight.integrator.filter(|integrator| plan.takes(*integrator)) {
+        let passes = system.swing_through_zero(time) > 0.0;
+        if passes {
+            // Only series know of that instant; this step says nothing about others.
+            let tried = self.attempt(index, (plan, system), Integrator::Taylor, time, most);
+            if tried.outcome.kept {
+                return (Integrator::Taylor, tried.outcome);
+            }
+            first = Some(tried);
+        } else if let Some(integrator) = foresight.integrator.filter(|integrator| plan.takes(*integrator)) {
             let tried = self.attempt(index, (plan, system), integrator, time, most);
             foresight.parts = system.foresight.parts;
             if tried.outcome.kept && !tried.outcome.failed && foresight.due > 1 {
@@ -190,21 +214,22 @@ impl Ladder {
             }
             first = Some(tried);
         }
-        let best = self.contest(index, (plan, system), (world, time), first, most);
+        let best = self.contest(index, (plan, system), (world, time), (first, passes), most);
         let stays = foresight.integrator == Some(best.integrator) && best.outcome.kept;
         let interval = if stays { (2 * foresight.interval).clamp(2, RAREST) } else { 2 };
-        let integrator = Some(best.integrator).filter(|_| !best.outcome.failed);
+        let integrator = Some(best.integrator);
         system.foresight = Foresight { integrator, interval, due: interval, parts: system.foresight.parts };
         (best.integrator, best.outcome)
     }
 
-    /// Tries all that could be cheaper than `first`, the result of which the island holds; leaves the best result in it.
+    /// Tries all that could be cheaper than `first`, the result of which the island holds; leaves the best result in it. Where a spring
+    /// `passes` zero length only series are believed.
     fn contest(
         &mut self,
         index: usize,
         (plan, system): (&IslandPlan, &mut System),
         (world, time): (&World, f64),
-        first: Option<Try>,
+        (first, passes): (Option<Try>, bool),
         most: f64,
     ) -> Try {
         let failed =
@@ -232,7 +257,8 @@ impl Ladder {
                 let parts = system.foresight.parts;
                 self.reload(system, world, time, parts);
             }
-            let tried = self.attempt(index, (plan, system), integrator, time, limit);
+            let mut tried = self.attempt(index, (plan, system), integrator, time, limit);
+            tried.outcome.kept &= !passes || integrator == Integrator::Taylor;
             (untouched, holds_best) = (false, false);
             // The one in use stays unless another one is clearly cheaper.
             let worth = if best.is_some_and(|best| first.is_some_and(|f| f.integrator == best.integrator)) {

@@ -122,6 +122,11 @@ impl Islands {
             system.store(world);
             for constraint in &self.islands[index].0.group.constraints {
                 world.constraints.carried[*constraint as usize] = true;
+            }
+        }
+        let near = &self.surroundings.near;
+        for ((plan, system), _) in self.islands.iter().zip(near).filter(|(_, near)| !**near) {
+            for constraint in &plan.group.constraints {
                 world.constraints.foresight[*constraint as usize] = system.foresight;
             }
         }

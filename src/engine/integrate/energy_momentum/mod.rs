@@ -17,7 +17,7 @@ mod tree;
 mod unresolved;
 
 use super::outcome::{Outcome, in_parts};
-use super::pace::{Pace, steps_within};
+use super::pace::{Pace, SMOOTH, SMOOTH_NET, carried_on, steps_within};
 use crate::engine::island::System;
 use graph::Graph;
 use moment::Moment;
@@ -133,7 +133,8 @@ impl EnergyMomentum {
             let before = if outcome.steps == 1 { &self.start } else { &self.before };
             error += UNRESOLVED * self.unresolved.error(system, before, last);
         }
-        outcome.error = error;
+        let smooth = if matches!(self.solver, Solver::Graph(_)) { SMOOTH_NET } else { SMOOTH };
+        outcome.error = carried_on(f64::from(steps), smooth) * error;
         outcome
     }
 

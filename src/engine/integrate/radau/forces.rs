@@ -97,12 +97,10 @@ pub(super) fn own<const S: usize, const L: usize>(
 /// The mouse's hold at every stage [N].
 pub(super) fn hold<const S: usize, const L: usize>(held: &Held, stages: &Stages<S, L>) -> [Values<S>; 2] {
     let node = &stages.node[held.node];
-    let mut force = [[0.0; S]; 2];
-    for j in 0..S {
-        let at = bounded(held, DVec2::new(node.q[0][j], node.q[1][j]), DVec2::new(node.v[0][j], node.v[1][j])).0;
-        (force[0][j], force[1][j]) = (at.x, at.y);
-    }
-    force
+    let force: [DVec2; S] = std::array::from_fn(|j| {
+        bounded(held, DVec2::new(node.q[0][j], node.q[1][j]), DVec2::new(node.v[0][j], node.v[1][j])).0
+    });
+    [force.map(|force| force.x), force.map(|force| force.y)]
 }
 
 /// Its slopes at stage j.

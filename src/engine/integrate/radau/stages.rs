@@ -68,24 +68,22 @@ impl<const S: usize, const L: usize> Stages<S, L> {
     pub fn correct(&mut self, node: usize, z: &[Complex<L>; 2]) -> f64 {
         let node = &mut self.node[node];
         let mut moved = 0.0;
-        for k in 0..2 {
+        for (k, z) in z.iter().enumerate() {
             let mut change = [0.0; S];
-            for (change, t) in change.iter_mut().zip(&self.scheme.from_eigen) {
+            for (change, t) in change.iter_mut().zip(&self.scheme.of_eigen) {
                 for l in 0..L {
-                    *change += t.re[l] * z[k].re[l] - t.im[l] * z[k].im[l];
+                    *change += t.re[l] * z.re[l] - t.im[l] * z.im[l];
                 }
             }
             let (mut dv, mut dq) = ([0.0; S], [0.0; S]);
             for i in 0..S {
-                for j in 0..S {
-                    dv[i] += self.weights[i][j] * change[j];
-                    dq[i] += self.squared[i][j] * change[j];
+                for (j, change) in change.iter().enumerate() {
+                    dv[i] += self.weights[i][j] * change;
+                    dq[i] += self.squared[i][j] * change;
                 }
             }
-            for j in 0..S {
-                node.a[k][j] += change[j];
-                node.v[k][j] += dv[j];
-                node.q[k][j] += dq[j];
+            for (to, by) in [(&mut node.a[k], &change), (&mut node.v[k], &dv), (&mut node.q[k], &dq)] {
+                to.iter_mut().zip(by).for_each(|(to, by)| *to += by);
             }
             moved += dq[S - 1].abs() + WEIGHT * dv[S - 1].abs();
         }
@@ -151,9 +149,9 @@ impl<const S: usize, const L: usize> Stages<S, L> {
 
     /// Re Σ T_jl z_l
     #[inline(always)]
-    pub fn from_eigen(&self, z: &Complex<L>) -> Values<S> {
+    pub fn of_eigen(&self, z: &Complex<L>) -> Values<S> {
         std::array::from_fn(|j| {
-            let t = &self.scheme.from_eigen[j];
+            let t = &self.scheme.of_eigen[j];
             (0..L).fold(0.0, |sum, l| sum + t.re[l] * z.re[l] - t.im[l] * z.im[l])
         })
     }

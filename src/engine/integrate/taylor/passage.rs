@@ -39,13 +39,10 @@ impl Taylor {
     pub(super) fn first_passage(&mut self, system: &System, order: usize, part: f64, run: &Run) -> Option<(f64, f64)> {
         let springs = &system.springs;
         let mut first: Option<(f64, f64)> = None;
-        self.near_zero = 0.0;
         for i in (0..springs.len()).filter(|i| springs.rest[*i] > 0.0 && springs.stiffness[*i] > 0.0) {
             if !self.comes_near(i, part) {
                 continue;
             }
-            let w = system.nodes.w[springs.a[i] as usize] + system.nodes.w[springs.b[i] as usize];
-            self.near_zero = self.near_zero.max(1.0 / (springs.stiffness[i] * w).sqrt());
             let Some(at) = self.closest(i, order, first.map_or(part, |(until, _)| until)) else { continue };
             let time = self.hop_time(system, i, run);
             if !(time > 0.0) {
