@@ -252,7 +252,7 @@ fn where_neighbouring_motions_part_there_is_no_reference_any_more() {
 fn two_methods_part_at_a_moment_that_is_kept() {
     let setup = open("truth/double_pendulum");
     let by = Method { automatic: true, accuracy: 1e-9, ..setup.method };
-    let euler = Method { integrator: Integrator::ExplicitEuler, substeps: 1, ..setup.method };
+    let euler = Method { integrator: Integrator::ExplicitEuler, substeps: 1, automatic: false, ..setup.method };
     let frame = frame_after(Setup { method: euler, ..setup }, 3.0, &Beside { truth: false, rival: Some(by) });
     let report = rival(&frame);
     let parting = report.parting.expect("explicit Euler leaves the motion within three seconds");

@@ -28,7 +28,7 @@ pub struct Sample {
 /// In how many groups the step did not keep the accuracy that was asked for. The one place that says so: the status bar, the
 /// plot and the panel all ask here.
 pub fn lapses(report: &StepReport) -> usize {
-    report.given_up
+    report.given_up + report.lapsed
 }
 
 impl Sample {

@@ -363,8 +363,8 @@ fn local_error_legend(ui: &mut Ui, frame: &Frame) {
         0.0 => "not estimated".to_owned(),
         error => format!("{error:.0e}"),
     };
-    let help = "Estimated error of the last step alone, in parts of an island's size. Taylor series, RATTLE and Nyström's methods \
-                estimate it for islands that are carried whole.";
+    let help = "Estimated error of the last step alone, in parts of an island's size. Every method that carries islands \
+                whole estimates it, but for Runge–Kutta.";
     entry(ui, series[0], "Local error", &value, help);
     let help =
         "Wanted accuracy of the motion after a second or so: the dashed line. Each step has to stay well below it.";

@@ -2,7 +2,6 @@
 
 use super::widgets::{self, Number};
 use super::{companions, format, status, theme};
-use crate::app::plot_data::lapses;
 use crate::app::{Command, Frame};
 use crate::engine::{DVec2, Integrator, LinearSolver, Method, Solver, StepReport, Tuning};
 use egui::Ui;
@@ -290,14 +289,24 @@ fn outcome(ui: &mut Ui, frame: &Frame) {
         let islands = format::count(report.near);
         widgets::note(ui, &format!("Groups with something near, left to the substeps in this step: {islands}."));
     }
-    if lapses(report) > 0 {
-        let islands = format::count(lapses(report));
+    if report.given_up > 0 {
+        let islands = format::count(report.given_up);
         let note = format!(
             "Groups whose accuracy was not kept in this step, left to the substeps: {islands}. No position meets all their \
-             lengths, their springs ask for more than 1000 steps a frame, the linear solver failed, or free bodies overlap or \
-             roll over each other."
+             lengths, discs on springs or anchors ask for more than 1000 steps a frame, the linear solver failed, or free bodies \
+             overlap or roll over each other."
         );
         widgets::note(ui, &note);
+    }
+    if report.lapsed > 0 {
+        let islands = format::count(report.lapsed);
+        widgets::note(
+            ui,
+            &format!(
+                "Groups carried through this step less accurately than asked: {islands}. No method reaches the accuracy for what a \
+                 step may cost: ask for less, take shorter steps, or softer springs."
+            ),
+        );
     }
     widgets::reading(ui, "Step time", status::cost(frame), status::COST_HELP);
     if frame.method.automatic {

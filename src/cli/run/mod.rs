@@ -144,7 +144,9 @@ impl RunArguments {
 
     /// Whether an option says how the integration is to be done.
     fn by_hand(&self) -> bool {
-        self.integrator.is_some() || self.solver.is_some()
+        let substeps = self.substeps.is_some() || self.iterations.is_some();
+        let sweeps = self.no_warm_start || self.baumgarte.is_some();
+        self.integrator.is_some() || self.solver.is_some() || substeps || sweeps
     }
 
     /// The options that name a file to write, with that name.

@@ -35,9 +35,12 @@ pub(super) struct Finish {
     pub lapses: Lapses,
 }
 
-/// Steps under a wanted accuracy in which something went through the substeps.
+/// Steps under a wanted accuracy in which it was not kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Lapses {
+    /// Steps in which an island was carried by a method that did not reach it, and nothing went through the substeps.
+    short: u64,
+    /// Steps in which something went through the substeps.
     steps: u64,
     /// Those in which something was near to an island, and in which an island could not be carried.
     near: u64,
@@ -46,6 +49,10 @@ pub(super) struct Lapses {
 
 impl Lapses {
     fn add(&mut self, report: &StepReport) {
+        if report.substeps == 0 {
+            self.short += u64::from(report.lapsed > 0);
+            return;
+        }
         self.steps += 1;
         self.near += u64::from(report.near > 0);
         self.lost += u64::from(report.given_up > 0);
@@ -53,15 +60,18 @@ impl Lapses {
 
     /// For the summary of a run of so many steps: nothing if there are none.
     pub fn summary(&self, of: u64) -> String {
-        let Lapses { steps, near, lost } = *self;
+        let Lapses { short, steps, near, lost } = *self;
+        let no_method = "no method reaches it for what a step may cost";
         let why = match (near, lost) {
-            _ if steps == 0 => return String::new(),
+            _ if steps == 0 && short == 0 => return String::new(),
+            _ if steps == 0 => return format!("; accuracy not kept in {short} of {of} steps: {no_method}"),
             (0, 0) => "bodies can touch".to_owned(),
             (_, 0) => "something was near".to_owned(),
             (0, _) => "they could not be carried to it".to_owned(),
             _ => format!("something was near in {near}, {lost} could not be carried to it"),
         };
-        format!("; accuracy not kept in {steps} of {of} steps, which went through the substeps: {why}")
+        let more = if short > 0 { format!("; nor in {short} more: {no_method}") } else { String::new() };
+        format!("; accuracy not kept in {steps} of {of} steps, which went through the substeps: {why}{more}")
     }
 }
 
@@ -91,11 +101,10 @@ pub(super) fn run(
         if let Some(divergence) = report.divergence {
             return Ok(Finish { world, steps, divergence: Some(divergence), stopped: false, lapses });
         }
-        let lapsed = method.automatic && report.substeps > 0;
-        if lapsed {
+        if method.automatic {
             lapses.add(&report);
         }
-        since_row.add(&report, lapsed);
+        since_row.add(&report, method.automatic && report.substeps > 0);
         steps = step;
         watch.step(&report);
         let seen = watch.look(&world);
