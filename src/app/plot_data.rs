@@ -21,14 +21,9 @@ pub struct Sample {
     pub step_us: f64,
     /// Estimate of the step's local error, in parts of an island's size; 0 where nothing estimates it.
     pub local_error: f64,
-    /// Groups whose accuracy was not kept in the step: see [`lapses`].
+    /// Groups whose accuracy was not kept in the step: left to the substeps, or carried less accurately than asked. The status bar
+    /// and the plot ask here; the panel says which of the two.
     pub lapses: usize,
-}
-
-/// In how many groups the step did not keep the accuracy that was asked for. The one place that says so: the status bar, the
-/// plot and the panel all ask here.
-pub fn lapses(report: &StepReport) -> usize {
-    report.given_up + report.lapsed
 }
 
 impl Sample {
@@ -39,7 +34,7 @@ impl Sample {
             stage_us: report.stage_us,
             step_us: report.step_us,
             local_error: report.local_error,
-            lapses: lapses(report),
+            lapses: report.given_up + report.lapsed,
         }
     }
 }

@@ -363,8 +363,8 @@ fn local_error_legend(ui: &mut Ui, frame: &Frame) {
         0.0 => "not estimated".to_owned(),
         error => format!("{error:.0e}"),
     };
-    let help = "Estimated error of the last step alone, in parts of an island's size. Every method that carries islands \
-                whole estimates it, but for Runge–Kutta.";
+    let help = "Estimated error of the last step alone, in parts of an island's size. By accuracy every method estimates it; of those \
+                chosen by hand, Taylor series, RATTLE and Radau's.";
     entry(ui, series[0], "Local error", &value, help);
     let help =
         "Wanted accuracy of the motion after a second or so: the dashed line. Each step has to stay well below it.";

@@ -41,6 +41,9 @@ use watch::{Refined, Watch};
 /// The error columns are empty where no exact motion is known: in scenes without a `truth` entry, after its seconds, and between
 /// the samples of a truth, which are 1/60 s apart. The last line tells the error over all samples that the run has met.
 ///
+/// A scene that opens by accuracy is run by hand where an option says how: --integrator, --solver, --substeps, --iterations,
+/// --no-warm-start or --baumgarte without --accuracy.
+///
 /// Files appear when the run ends, whole, in place of old ones; Ctrl-C ends it early and keeps what there is.
 #[derive(Debug, clap::Args)]
 #[command(allow_negative_numbers = true)]
@@ -142,10 +145,10 @@ impl RunArguments {
         })
     }
 
-    /// Whether an option says how the integration is to be done.
+    /// Whether an option says how the integration is to be done. Beside --linear, --iterations are those of the linear solver.
     fn by_hand(&self) -> bool {
-        let substeps = self.substeps.is_some() || self.iterations.is_some();
-        let sweeps = self.no_warm_start || self.baumgarte.is_some();
+        let sweeps = self.iterations.is_some() && self.linear.is_none();
+        let substeps = self.substeps.is_some() || self.no_warm_start || self.baumgarte.is_some();
         self.integrator.is_some() || self.solver.is_some() || substeps || sweeps
     }
 

@@ -153,3 +153,27 @@ fn nanoseconds() -> u64 {
     static START: OnceLock<Instant> = OnceLock::new();
     START.get_or_init(Instant::now).elapsed().as_nanos() as u64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_summary_says_in_how_many_steps_the_accuracy_was_not_kept_and_why() {
+        let kept = StepReport::default;
+        let short = || StepReport { lapsed: 1, ..kept() };
+        let lost = || StepReport { given_up: 1, substeps: 4, ..kept() };
+        let summary = |reports: &[StepReport]| {
+            let mut lapses = Lapses::default();
+            reports.iter().for_each(|report| lapses.add(report));
+            lapses.summary(reports.len() as u64)
+        };
+        assert_eq!(summary(&[kept(), kept()]), "");
+        let no_method = "no method reaches it for what a step may cost";
+        assert_eq!(summary(&[kept(), short(), kept()]), format!("; accuracy not kept in 1 of 3 steps: {no_method}"));
+        let substeps =
+            "; accuracy not kept in 1 of 2 steps, which went through the substeps: they could not be carried to it";
+        assert_eq!(summary(&[kept(), lost()]), substeps);
+        assert!(summary(&[short(), lost(), short()]).ends_with(&format!("; nor in 2 more: {no_method}")));
+    }
+}

@@ -22,13 +22,14 @@ impl Pace {
     }
 }
 
-/// What the velocity's error makes of a smooth motion's within a second, in parts of the local errors of steps as long as the time: most of
-/// it is in the estimates of chains and trees, little in those of nets.
+/// What the velocity's error adds to a smooth motion's, in parts of the local errors of steps as long as the time. Fitted to
+/// the truth scenes: less lets the pendulum be 3.4e-4 off after 10 s at 3e-4. The midpoint rule does not look for what it leaves
+/// unresolved in nets, and the rigid net is 1.8e-4 off after a second with estimates of 4e-8 a step.
 pub(super) const SMOOTH: f64 = 6.0;
 pub(super) const SMOOTH_NET: f64 = 60.0;
 
-/// Factor on the local errors of equal steps of a method of order 2. Where one step does for the time the motion is smooth, and errors of the
-/// velocity are carried on in one direction; where many are needed it swings, and they come to nothing.
+/// Factor on the local errors of equal steps of a method of order 2. Where one step does for the time the motion is smooth, and
+/// errors of the velocity are carried on in one direction; where many are needed it swings, and they come to nothing.
 pub(super) fn carried_on(steps: f64, smooth: f64) -> f64 {
     1.0 + smooth / (steps * steps * steps)
 }

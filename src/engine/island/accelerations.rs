@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 /// Rods that are worked off side by side.
 const SIDE: usize = 32;
 
-/// A spring is watched while it is shorter than the way that its ends go in so many times the step, if they pass each other at less than a
-/// part of that.
+/// A spring is watched while it is shorter than the way that its ends go in so many times the step, if they pass each other
+/// at less than a part of that.
 const REACH: f64 = 2.0;
 const BESIDE: f64 = 0.25;
 
@@ -140,18 +140,20 @@ impl System {
         Rates { swing, turn: fastest.value().sqrt() }
     }
 
-    /// The longest period of the springs whose ends come close to each other within about `time` [s], or just did, if they go on as they do;
-    /// 0 if there are none. A spring's force turns over there, which an estimate that looks at the ends of steps does not see.
+    /// The longest period of the springs whose ends come close to each other within about `time` [s], or just did, if they go
+    /// on as they do; 0 if there are none. A spring's force turns over there, which an estimate that looks at the ends of steps
+    /// does not see.
     pub fn swing_through_zero(&self, time: f64) -> f64 {
         let (springs, nodes) = (&self.springs, &self.nodes);
-        let mut longest = 0.0f64;
+        let (reach, mut longest) = (REACH * time, 0.0f64);
         for i in 0..springs.len() {
             let (a, b) = (springs.a[i] as usize, springs.b[i] as usize);
             let d = DVec2::new(nodes.x[b] - nodes.x[a], nodes.y[b] - nodes.y[a]);
             let rate = DVec2::new(nodes.vx[b] - nodes.vx[a], nodes.vy[b] - nodes.vy[a]);
-            let far = REACH * time * rate.length();
+            let square = rate.length_squared();
             // As they go on, they pass each other at |d × ḋ|/|ḋ|.
-            let near = d.length() <= far && d.perp_dot(rate).abs() <= BESIDE * far * rate.length();
+            let beside = || d.perp_dot(rate).abs() <= BESIDE * reach * square;
+            let near = d.length_squared() <= reach * reach * square && beside();
             let pull = springs.stiffness[i] * (nodes.w[a] + nodes.w[b]);
             if near && springs.rest[i] > 0.0 && pull > 0.0 {
                 longest = longest.max(TAU / pull.sqrt());

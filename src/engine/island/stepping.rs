@@ -124,6 +124,7 @@ impl Islands {
                 world.constraints.carried[*constraint as usize] = true;
             }
         }
+        // Also of those given up, so that they wait; one that something is near to holds what an earlier step found.
         let near = &self.surroundings.near;
         for ((plan, system), _) in self.islands.iter().zip(near).filter(|(_, near)| !**near) {
             for constraint in &plan.group.constraints {

@@ -232,13 +232,13 @@ impl<const S: usize, const L: usize> Net<S, L> {
         for r in (0..self.rods.a.len()).filter(|r| system.rods.held[*r]) {
             let (a, b, d) = (of(self.rods.a[r]), of(self.rods.b[r]), self.d[r]);
             let along = (b[0] - a[0]).scaled(d[0]) + (b[1] - a[1]).scaled(d[1]);
-            let change = stages.of_eigen(&(self.s[r] - along).scaled(self.rho[r]));
+            let change = stages.by_stage(&(self.s[r] - along).scaled(self.rho[r]));
             (0..S).for_each(|j| self.lambda[r][j] += change[j]);
         }
         for p in 0..self.pins.a.len() {
             let (a, b) = (of(self.pins.a[p]), of(self.pins.b[p]));
             for k in 0..2 {
-                let change = stages.of_eigen(&(self.apart[p][k] - (b[k] - a[k])).scaled(self.pin_rho[p]));
+                let change = stages.by_stage(&(self.apart[p][k] - (b[k] - a[k])).scaled(self.pin_rho[p]));
                 (0..S).for_each(|j| self.pinned[p][k][j] += change[j]);
             }
         }

@@ -21,7 +21,7 @@ pub(super) struct Scheme<const S: usize, const L: usize> {
     /// μ
     pub eigenvalues: Complex<L>,
     /// By stage j: x_j = Σ Re(T_jl z_l), pairs counted twice.
-    pub of_eigen: [Complex<L>; S],
+    pub from_eigen: [Complex<L>; S],
     /// By stage j: z = Σ x_j (T⁻¹)_j.
     pub to_eigen: [Complex<L>; S],
     /// Weights of the last Legendre coefficient of the stages' polynomial.
@@ -61,7 +61,7 @@ pub(super) static RADAU_3: Scheme<3, 2> = Scheme {
         [0.37640306270046725, 0.5124858261884216, 0.1111111111111111],
     ]),
     eigenvalues: Complex { re: [0.27488882959567734, 0.16255558520216132], im: [0.0, 0.1849493244071408] },
-    of_eigen: [
+    from_eigen: [
         Complex { re: [0.09443876248897524, -0.2825105900419084], im: [0.0, -0.06005838821029485] },
         Complex { re: [0.2502131229653333, 0.4082587045875999], im: [0.0, 0.7658842255145238] },
         Complex { re: [1.0, 2.0], im: [0.0, 0.0] },
@@ -96,7 +96,7 @@ pub(super) static RADAU_5: Scheme<5, 3> = Scheme {
         re: [0.15906584442746913, 0.1331790770182996, 0.06506577854574362],
         im: [0.0, 0.07499451183581853, 0.11646852774031707],
     },
-    of_eigen: [
+    from_eigen: [
         Complex {
             re: [0.013576867344947943, -0.02295703051045903, -0.020484095635817653],
             im: [0.0, -0.02803971778575082, 0.09534775458059144],
@@ -155,8 +155,8 @@ mod tests {
             // T μ T⁻¹ = a and T T⁻¹ = 1.
             for j in 0..S {
                 let product = |z: Complex<L>| -> f64 { z.re.iter().sum() };
-                let one = product(scheme.of_eigen[i] * scheme.to_eigen[j]);
-                let a = product(scheme.of_eigen[i] * scheme.eigenvalues * scheme.to_eigen[j]);
+                let one = product(scheme.from_eigen[i] * scheme.to_eigen[j]);
+                let a = product(scheme.from_eigen[i] * scheme.eigenvalues * scheme.to_eigen[j]);
                 assert!((one - f64::from(i == j)).abs() < 1e-14, "{i} {j}: {one}");
                 assert!((a - scheme.weights[i][j]).abs() < 1e-14, "{i} {j}: {a}");
             }

@@ -70,7 +70,7 @@ impl<const S: usize, const L: usize> Stages<S, L> {
         let mut moved = 0.0;
         for (k, z) in z.iter().enumerate() {
             let mut change = [0.0; S];
-            for (change, t) in change.iter_mut().zip(&self.scheme.of_eigen) {
+            for (change, t) in change.iter_mut().zip(&self.scheme.from_eigen) {
                 for l in 0..L {
                     *change += t.re[l] * z.re[l] - t.im[l] * z.im[l];
                 }
@@ -149,9 +149,9 @@ impl<const S: usize, const L: usize> Stages<S, L> {
 
     /// Re Σ T_jl z_l
     #[inline(always)]
-    pub fn of_eigen(&self, z: &Complex<L>) -> Values<S> {
+    pub fn by_stage(&self, z: &Complex<L>) -> Values<S> {
         std::array::from_fn(|j| {
-            let t = &self.scheme.of_eigen[j];
+            let t = &self.scheme.from_eigen[j];
             (0..L).fold(0.0, |sum, l| sum + t.re[l] * z.re[l] - t.im[l] * z.im[l])
         })
     }

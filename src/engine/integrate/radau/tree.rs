@@ -296,7 +296,7 @@ impl<const S: usize, const L: usize> Tree<S, L> {
             for (z, unit) in self.z.iter_mut().zip(&self.unit) {
                 (z[0], z[1]) = (z[0] + zeta * unit[0], z[1] + zeta * unit[1]);
             }
-            let change = stages.of_eigen(&zeta);
+            let change = stages.by_stage(&zeta);
             (0..S).for_each(|j| self.closing_lambda[j] += change[j]);
         }
         let mut largest = 0.0;
