@@ -21,8 +21,8 @@ pub struct Sample {
     pub step_us: f64,
     /// Estimate of the step's local error, in parts of an island's size; 0 where nothing estimates it.
     pub local_error: f64,
-    /// Groups whose accuracy was not kept in the step: left to the substeps, or carried less accurately than asked. The status bar
-    /// and the plot ask here; the panel says which of the two.
+    /// Groups whose accuracy was not kept in the step: left to the substeps, as they could not be carried or something was near,
+    /// or carried less accurately than asked. The status bar and the plot ask here; the panel says which of the three.
     pub lapses: usize,
 }
 
@@ -34,7 +34,7 @@ impl Sample {
             stage_us: report.stage_us,
             step_us: report.step_us,
             local_error: report.local_error,
-            lapses: report.given_up + report.lapsed,
+            lapses: report.given_up + report.near + report.lapsed,
         }
     }
 }
