@@ -23,14 +23,11 @@ impl Event {
     /// Switches the rope's row; a rope that tightens takes the speed away that would stretch it.
     pub fn apply(self, system: &mut System) {
         match self {
-            Event::Rope { rope, taut } => {
-                system.rods.held[rope] = taut;
+            Event::Rope { rope, taut: true } => system.take_in(rope),
+            Event::Rope { rope, taut: false } => {
+                system.rods.held[rope] = false;
+                system.rods.lambda[rope] = 0.0;
                 system.factor();
-                if taut {
-                    system.settle_velocities();
-                } else {
-                    system.rods.lambda[rope] = 0.0;
-                }
             }
             Event::Hold { bounded } => {
                 if let Some(held) = &mut system.held {

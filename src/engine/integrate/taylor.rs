@@ -36,7 +36,7 @@ use self::turning::TurningSeries;
 use super::events::{Event, Series};
 use super::outcome::Outcome;
 use super::pace::SLACK;
-use crate::engine::island::System;
+use crate::engine::island::{Stretching, System};
 use glam::DVec2;
 
 /// Orders beyond this gain nothing in double precision.
@@ -51,6 +51,8 @@ const END: f64 = 0.005;
 const FINE: f64 = 1e-3;
 /// What rounding leaves of a step, in parts of the farthest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// What a step may leave the constraints off, in parts of what they may be off before the nodes are put back.
+const RETURNED: f64 = 1e-5;
 
 /// Coefficients by order, then by node, rod or spring.
 #[derive(Debug, Default)]
@@ -85,6 +87,8 @@ struct Run {
     /// What the local errors may add up to over `time`, and the least that a step is held to, by rounding [m].
     tolerance: f64,
     rounding: f64,
+    /// How far a step may end off the constraints at least [L²].
+    tight: f64,
     budget: u32,
     highest: usize,
     /// The part of the time left that the last terms allow, and how much of that is made use of: as it went in the step before.
@@ -132,12 +136,14 @@ impl Taylor {
         let fine = tolerance.min(FINE * shortest);
         let highest = highest_order(fine / system.length);
         let rounding = ROUNDING * system.nodes.farthest();
+        let tight = system.rounding_off();
         let outcome = Outcome::default();
         let mut run = Run {
             time,
             left: time,
             tolerance: fine,
             rounding,
+            tight,
             budget,
             highest,
             allowed: 1.0,
@@ -166,12 +172,17 @@ impl Taylor {
     fn begin(&mut self, system: &mut System, scale: f64) {
         self.expand_first(system, scale);
         self.coefficient(system, scale, 0);
-        self.release_ropes(system, scale);
+        self.choose_ropes(system, scale);
     }
 
-    /// Lets go of ropes that would push, the accelerations being known.
-    fn release_ropes(&mut self, system: &mut System, scale: f64) {
-        while system.release_pushing_ropes(&self.lambda[0]) {
+    /// Lets go of ropes that would push and takes in those that would stretch, the accelerations being known.
+    fn choose_ropes(&mut self, system: &mut System, scale: f64) {
+        for _ in 0..system.most_changes() {
+            let of = |k: usize, r: usize| [self.dx[k][r], self.dy[k][r]];
+            let stretching = |_: &System, r: usize| Stretching::new(of(0, r), of(1, r), of(2, r).map(|d| 2.0 * d));
+            if !system.choose_rope(&self.lambda[0], stretching) {
+                break;
+            }
             // The rows in force changed: once more, with a matrix for those that are left.
             system.factor();
             self.coefficient(system, scale, 0);
@@ -198,10 +209,11 @@ impl Taylor {
             return false;
         }
         let most_events = 64 + 8 * (system.rods.a.len() - system.rods.first_rope);
-        let event = (run.events < most_events).then(|| self.first_event(system, order, part)).flatten();
-        if let Some((at, _)) = event {
-            (part, run.events) = (at, run.events + 1);
+        let event = self.first_event(system, order, part);
+        if event.is_some() && run.events >= most_events {
+            return false;
         }
+        part = event.map_or(part, |(at, _)| at);
         let mut hop = None;
         if let Some((until, half)) = self.first_passage(system, order, part, run) {
             if until <= 0.0 {
@@ -235,6 +247,7 @@ impl Taylor {
             Verdict::Taken => {}
         }
         run.left = left;
+        run.events += usize::from(event.is_some());
         run.outcome.steps += 1;
         run.outcome.order = run.outcome.order.max(order as u32);
         run.outcome.error += error;
@@ -257,14 +270,14 @@ impl Taylor {
         if left == 0.0 {
             return;
         }
-        if event.is_some() || changed { self.begin(system, left) } else { self.release_ropes(system, left) }
+        if event.is_some() || changed { self.begin(system, left) } else { self.choose_ropes(system, left) }
     }
 
     /// Evaluates at `part` of the time scale and projects; a step that leaves the constraints farther than the tolerance allows
     /// is halved. Returns the part that was taken.
     fn go(&mut self, system: &mut System, order: usize, mut part: f64, run: &mut Run) -> Option<f64> {
         // A series that has converged is off the constraints by its own error.
-        let most = (1e3 * run.tolerance / system.length).max(1e-12);
+        let most = (1e3 * run.tolerance / system.length).max(run.tight);
         loop {
             self.evaluate(system, order, part, run.left);
             if system.unconstrained() {
@@ -272,10 +285,7 @@ impl Taylor {
             }
             system.factor();
             let off = system.position_error();
-            if off <= most {
-                system.matrix.solve(&mut system.rhs);
-                system.move_nodes();
-                system.take_differences();
+            if off <= most && system.return_to_constraints(off, (RETURNED * most).max(run.tight)) {
                 system.project_velocities();
                 return Some(part);
             }

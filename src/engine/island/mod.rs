@@ -25,5 +25,6 @@ mod stepping;
 
 pub(crate) use ladder::TURNING_SECOND_ORDER;
 pub(crate) use nodes::Nodes;
+pub(crate) use ropes::Stretching;
 pub(crate) use stepping::Islands;
 pub(crate) use system::System;

@@ -10,6 +10,10 @@ use super::lanes::Largest;
 const FAR: f64 = 1e-6;
 /// Most passes for positions far off.
 const MOST_PASSES: u32 = 30;
+/// C that is as good as none in any case, in parts of L².
+const ROUNDING: f64 = 1e-12;
+/// Most passes with one matrix.
+const FEW_PASSES: u32 = 5;
 
 impl System {
     /// Moves the nodes onto the constraints, and leaves the matrix factored there. Returns whether they were reached.
@@ -29,6 +33,32 @@ impl System {
             self.factor();
         }
         false
+    }
+
+    /// The same at the end of a step, from positions that are `off` by what the right-hand side says and with the matrix of these;
+    /// returns whether the nodes come as close as `tight`, in parts of L². One pass does but for links in a line, whose lengths hardly
+    /// change with the moves that would mend them. Ropes that the moves made too long are put back as well.
+    pub fn return_to_constraints(&mut self, mut off: f64, tight: f64) -> bool {
+        for _ in 0..FEW_PASSES {
+            self.matrix.solve(&mut self.rhs);
+            self.move_nodes();
+            self.take_differences();
+            let left = self.position_error();
+            if left <= tight {
+                return self.shorten_ropes(tight);
+            }
+            if !(left < 0.5 * off) {
+                return false;
+            }
+            off = left;
+        }
+        false
+    }
+
+    /// How far off the constraints the nodes may be by rounding, in parts of L².
+    pub fn rounding_off(&self) -> f64 {
+        let shortest = self.rods.length.iter().fold(self.length, |least, length| length.min(least));
+        ROUNDING.max(16.0 * f64::EPSILON * self.nodes.farthest() / shortest)
     }
 
     /// Writes −C to the right-hand side. Returns the largest |C| in parts of L².

@@ -77,6 +77,8 @@ pub(crate) struct System {
     pub scratch: [Vec<f64>; 2],
     /// Right-hand side and solution: rods, then two rows a pin.
     pub rhs: Vec<f64>,
+    /// Ropes that a step has left too long.
+    pub(super) long: Vec<usize>,
 }
 
 impl System {

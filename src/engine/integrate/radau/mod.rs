@@ -27,7 +27,7 @@ mod tree;
 use super::events::{Event, ROUNDING as LET_GO, first_change};
 use super::outcome::Outcome;
 use super::pace::Pace;
-use crate::engine::island::System;
+use crate::engine::island::{Stretching, System};
 use glam::DVec2;
 use net::Net;
 use scheme::{RADAU_3, RADAU_5, Scheme};
@@ -56,6 +56,9 @@ const SMALL: f64 = 1.0 / 7.0;
 const FIRST: f64 = 2.0;
 /// C after a step, in parts of L², beyond which the step is taken back.
 const FAR: f64 = 1e-3;
+/// What is left of it, in parts of what the error may be, and where steps are given by hand.
+const RETURNED: f64 = 1e-2;
+const LEFT_OFF: f64 = 1e-9;
 /// Parts of the time that Newton's method may need, whatever the accuracy.
 const FINEST: f64 = 4096.0;
 
@@ -211,6 +214,11 @@ impl<const S: usize, const L: usize> Steps<S, L> {
             Pace::Steps(_) => BY_HAND * system.length,
             Pace::Within(tolerance) => (TIGHT * tolerance).max(LEAST * system.length),
         };
+        let returned = match task.pace {
+            Pace::Steps(_) => LEFT_OFF,
+            Pace::Within(tolerance) => RETURNED * tolerance / system.length,
+        };
+        let returned = returned.max(system.rounding_off());
         let mut h = match task.pace {
             Pace::Steps(steps) => time / f64::from(steps),
             Pace::Within(_) => time / task.parts.unwrap_or(FIRST).clamp(1.0, task.most.max(1.0)),
@@ -230,11 +238,13 @@ impl<const S: usize, const L: usize> Steps<S, L> {
             // Smaller steps are worth their cost as long as there are not too many.
             let finer = f64::from(outcome.steps) + 2.0 * left / step <= task.most;
             let refused = !solved || (!(excess <= 1.0) && finer);
-            let may_happen = !refused && events < most_events;
-            let event = if may_happen { self.first_event(system) } else { None };
+            let event = if refused { None } else { self.first_event(system) };
+            if event.is_some() && events >= most_events {
+                return failed(outcome);
+            }
             let part = event.map_or(1.0, |(at, _)| at);
             let cut = !refused && (part == 1.0 || self.solve(system, part * step, tight));
-            if !(cut && self.finish(system)) {
+            if !(cut && self.finish(system, returned)) {
                 self.restore(system);
                 outcome.retries += 1;
                 (h, careful) = (0.5 * step, true);
@@ -263,18 +273,15 @@ impl<const S: usize, const L: usize> Steps<S, L> {
         (outcome, (time / h).clamp(1.0, FINEST))
     }
 
-    /// Accelerations and multipliers at the present instant; ropes that would push are let go.
+    /// Accelerations and multipliers at the present instant; ropes that would push are let go, those that would stretch taken in.
     fn accelerate(&mut self, system: &mut System) -> bool {
-        loop {
+        for left in (0..=system.most_changes()).rev() {
             system.force_accelerations(&mut self.ax, &mut self.ay);
             system.constrain_accelerations(&mut self.ax, &mut self.ay);
-            if system.rods.first_rope == system.rods.a.len() {
-                break;
-            }
-            let lambda = std::mem::take(&mut system.rhs);
-            let released = system.release_pushing_ropes(&lambda);
+            let (lambda, ax, ay) = (std::mem::take(&mut system.rhs), &self.ax, &self.ay);
+            let changed = left > 0 && system.choose_rope(&lambda, |system, r| stretching(system, r, ax, ay));
             system.rhs = lambda;
-            if !released {
+            if !changed {
                 break;
             }
             system.factor();
@@ -311,19 +318,17 @@ impl<const S: usize, const L: usize> Steps<S, L> {
     }
 
     /// Moves the island to the end of the solved step and projects it onto its constraints.
-    fn finish(&mut self, system: &mut System) -> bool {
+    fn finish(&mut self, system: &mut System, returned: f64) -> bool {
         self.stages.apply(system);
         self.solver.store(system);
         if system.unconstrained() {
             return system.nodes.x.iter().sum::<f64>().is_finite();
         }
         system.factor();
-        if !(system.position_error() <= FAR) {
+        let off = system.position_error();
+        if !(off <= FAR && system.return_to_constraints(off, returned)) {
             return false;
         }
-        system.matrix.solve(&mut system.rhs);
-        system.move_nodes();
-        system.take_differences();
         system.project_velocities();
         true
     }
@@ -411,4 +416,11 @@ impl<const S: usize> Interpolation<S> {
         }
         self.start.map_or(sum, |start| start + t * sum)
     }
+}
+
+/// How a rope's length changes with these accelerations.
+fn stretching(system: &System, r: usize, ax: &[f64], ay: &[f64]) -> Stretching {
+    let (a, b, nodes) = (system.rods.a[r] as usize, system.rods.b[r] as usize, &system.nodes);
+    let between = |x: &[f64], y: &[f64]| [x[b] - x[a], y[b] - y[a]];
+    Stretching::new([system.dx[r], system.dy[r]], between(&nodes.vx, &nodes.vy), between(ax, ay))
 }
