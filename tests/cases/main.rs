@@ -2,6 +2,7 @@
 //! `scenes/truth` (`tautline truth NAME.ron --write tests/cases` makes it). A new case needs no more than these two files.
 
 mod energy;
+mod held;
 
 use std::path::{Path, PathBuf};
 use tautline::engine::{Method, Stepper};

@@ -10,10 +10,10 @@ fn by_accuracy(accuracy: f64) -> Method {
 }
 
 /// RMS distance from the truth in parts of the scene's length, and the largest violation [m].
-fn error(name: &str, accuracy: f64) -> (f64, f64) {
+fn error(name: &str, method: Method) -> (f64, f64) {
     let truth = stored(name).unwrap();
     let mut world = scene::open(name).unwrap().world;
-    let mut stepper = Stepper::new(by_accuracy(accuracy)).unwrap();
+    let mut stepper = Stepper::new(method).unwrap();
     let mut motion = vec![world.bodies().position.clone()];
     let mut violation: f64 = 0.0;
     for _ in 1..truth.times.len() {
@@ -32,7 +32,7 @@ fn every_truth_scene_is_carried_to_the_wanted_accuracy() {
         for accuracy in
             [0.1, 1e-2, 3e-3, 1e-3, 6e-4, 3e-4, 1e-4, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13]
         {
-            let (error, violation) = error(shipped.name, accuracy);
+            let (error, violation) = error(shipped.name, by_accuracy(accuracy));
             println!("{}, wanted {accuracy:.0e}: error {error:.1e}, violation {violation:.1e} m", shipped.name);
             // The quick methods are held to what is wanted after a second or two; their errors grow with time.
             let allowed = if accuracy >= 6e-4 { accuracy * (seconds / 2.0).max(1.0) } else { accuracy };
@@ -43,8 +43,10 @@ fn every_truth_scene_is_carried_to_the_wanted_accuracy() {
 }
 
 #[test]
-fn the_error_falls_with_the_wanted_accuracy() {
-    let errors = [1e-4, 1e-6, 1e-8, 1e-10].map(|accuracy| error("truth/double_pendulum", accuracy).0);
+fn the_error_of_series_falls_with_the_wanted_accuracy() {
+    // By hand: by accuracy a method of a fixed order may be better than asked for in a single step.
+    let series = |accuracy| Method { integrator: Integrator::Taylor, accuracy, ..Method::default() };
+    let errors = [1e-4, 1e-6, 1e-8, 1e-10].map(|accuracy| error("truth/double_pendulum", series(accuracy)).0);
     // Local errors are kept at a fixed part of what is wanted, so the error must fall with it, within the jumps of the order.
     assert!(errors.windows(2).all(|pair| pair[1] < 0.1 * pair[0]), "{errors:?}");
 }

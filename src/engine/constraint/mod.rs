@@ -149,6 +149,8 @@ pub(crate) struct Foresight {
     /// Steps between the last two contests of methods, and to the next one; or steps for which it is left to the substeps.
     pub interval: u32,
     pub due: u32,
+    /// Contests in a row in which no method kept the accuracy.
+    pub lapses: u32,
     /// Parts that Radau's methods of 3 and 5 stages cut the step into; 0 if they did not.
     pub parts: [f64; 2],
 }

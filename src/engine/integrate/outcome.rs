@@ -9,7 +9,7 @@ pub(crate) struct Outcome {
     /// Steps taken, and those taken back.
     pub steps: u32,
     pub retries: u32,
-    /// Newton iterations of Radau's methods.
+    /// Newton iterations of the implicit methods.
     pub solves: u32,
     /// Highest order used.
     pub order: u32,

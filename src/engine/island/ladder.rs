@@ -5,7 +5,9 @@
 //! step, each until it has cost as much as the best before it. Contests come after 2, 4, 8, … 64 steps, and at once where a method fails or
 //! does not keep the accuracy. What they find is kept with the world, so that a fresh stepper goes on alike.
 //!
-//! Where no method keeps the accuracy within the work that a step may cost, the best result is taken, and the outcome says so.
+//! Where no method keeps the accuracy within the work that a step may cost, the best result is taken, and the outcome says so. What was
+//! best goes on, with half the work after each such contest, down to an eighth, and contests become rare: trying in vain is not what
+//! time is for.
 
 use super::System;
 use super::accelerations::Rates;
@@ -19,7 +21,7 @@ use crate::engine::integrate::outcome::Outcome;
 use crate::engine::integrate::radau::{Member, Radau, Task};
 use crate::engine::integrate::rattle::Rattle;
 use crate::engine::integrate::rattle_turning::RattleTurning;
-use crate::engine::integrate::runge_kutta::RungeKutta;
+use crate::engine::integrate::runge_kutta::{self, RungeKutta};
 use crate::engine::integrate::taylor::Taylor;
 use crate::engine::method::Integrator;
 use crate::engine::plan::{Carrier, IslandPlan};
@@ -30,12 +32,13 @@ use glam::DVec2;
 const RAREST: u32 = 64;
 /// Steps of the world for which an island that no method can carry is left to the substeps, at most, before it is tried again:
 /// trying costs all that a step may.
-const LONGEST_WAIT: u32 = 16;
+const LONGEST_WAIT: u32 = 64;
 /// A challenger must cost less than this part of the method in use.
 const WORTH: f64 = 0.9;
-/// Accuracies down to which methods of order 2, 4 and 5 are tried. Nyström's of order 4 adds up errors: the stiff chain is 1.4e-8
-/// off after 5 s at 1e-8.
+/// Accuracies down to which methods of order 2, 4 and 5 are tried. Those of order 4 add up errors: the stiff chain is 1.4e-8 off
+/// after 5 s at 1e-8 by Nyström's, the pendulum 4e-7 after 10 s at 1e-7 by Runge and Kutta's.
 const SECOND_ORDER: f64 = 3e-5;
+const KUTTA: f64 = 5e-7;
 const FOURTH_ORDER: f64 = 5e-8;
 const FIFTH_ORDER: f64 = 1e-8;
 /// Where anchors turn there is no contest: accuracies down to which RATTLE costs less than series.
@@ -43,7 +46,9 @@ pub(crate) const TURNING_SECOND_ORDER: f64 = 6e-4;
 /// Radians of the fastest swing that a step of a series takes at most.
 const SERIES_SWING: f64 = 6.0;
 /// What a step may cost at most, in parts of the time that it simulates: a little more than real time, as work is only estimated.
-const DEAREST: f64 = 2.0;
+const DEAREST: f64 = 1.0;
+/// Times that this is halved where no method keeps the accuracy.
+const MOST_HALVINGS: u32 = 3;
 
 /// The methods, and their scratch memory.
 #[derive(Debug, Default)]
@@ -139,9 +144,9 @@ impl Ladder {
             Carrier::Cheapest => self.cheapest(index, (plan, system), (world, time)),
         };
         if outcome.failed {
-            let again = foresight.integrator.is_none() && foresight.interval > 0;
-            let wait = if again { (2 * foresight.interval).min(LONGEST_WAIT) } else { 1 };
-            system.foresight = Foresight { integrator: None, interval: wait, due: wait, ..system.foresight };
+            let lapses = system.foresight.lapses.max(foresight.lapses + 1);
+            let wait = (1u32 << (lapses - 1).min(31)).min(LONGEST_WAIT);
+            system.foresight = Foresight { integrator: None, interval: wait, due: wait, lapses, ..system.foresight };
         } else if system.foresight.integrator.is_none() {
             system.foresight = Foresight { integrator: Some(integrator), interval: 0, due: 0, ..system.foresight };
         }
@@ -195,8 +200,9 @@ impl Ladder {
             let integrator = if system.damped() { Integrator::Taylor } else { Integrator::Rattle };
             return (integrator, self.run(index, (plan, system), integrator, time, f64::INFINITY));
         }
-        let most = DEAREST * 1e9 * time * self.own[index].work.links() / self.links;
         let mut foresight = system.foresight;
+        let dearest = DEAREST / f64::from(1u32 << foresight.lapses.min(MOST_HALVINGS));
+        let most = dearest * 1e9 * time * self.own[index].work.links() / self.links;
         let mut first = None;
         let passes = system.swing_through_zero(time) > 0.0;
         if passes {
@@ -209,17 +215,20 @@ impl Ladder {
         } else if let Some(integrator) = foresight.integrator.filter(|integrator| plan.takes(*integrator)) {
             let tried = self.attempt(index, (plan, system), integrator, time, most);
             foresight.parts = system.foresight.parts;
-            if tried.outcome.kept && !tried.outcome.failed && foresight.due > 1 {
-                system.foresight = Foresight { due: foresight.due - 1, ..foresight };
+            let will_do = tried.outcome.kept && !tried.outcome.failed || foresight.lapses > 0;
+            if will_do && foresight.due > 1 {
+                let lapses = foresight.lapses.saturating_sub(u32::from(tried.outcome.kept));
+                system.foresight = Foresight { due: foresight.due - 1, lapses, ..foresight };
                 return (integrator, tried.outcome);
             }
             first = Some(tried);
         }
         let best = self.contest(index, (plan, system), (world, time), (first, passes), most);
         let stays = foresight.integrator == Some(best.integrator) && best.outcome.kept;
-        let interval = if stays { (2 * foresight.interval).clamp(2, RAREST) } else { 2 };
+        let lapses = if best.outcome.kept { 0 } else { foresight.lapses + 1 };
+        let interval = if stays || lapses > 1 { (2 * foresight.interval).clamp(2, RAREST) } else { 2 };
         let integrator = Some(best.integrator);
-        system.foresight = Foresight { integrator, interval, due: interval, parts: system.foresight.parts };
+        system.foresight = Foresight { integrator, interval, due: interval, lapses, ..system.foresight };
         (best.integrator, best.outcome)
     }
 
@@ -292,11 +301,12 @@ impl Ladder {
         };
         let (steps, order, solves) = match integrator {
             Integrator::Rattle => (steps(0.7, 1.8), 2.0, 0.0),
+            Integrator::RungeKutta4 => (steps(runge_kutta::TURN, runge_kutta::SWING), 4.0, 0.0),
             Integrator::Nystrom4 => (steps(f64::INFINITY, 5.0), 4.0, 0.0),
             Integrator::Nystrom6 => (steps(f64::INFINITY, 9.0), 6.0, 0.0),
             Integrator::Taylor => (steps(f64::INFINITY, SERIES_SWING), 5.0, 0.0),
             Integrator::Radau3 | Integrator::Radau5 => (1.0, 5.0, 2.0),
-            _ => (1.0, 2.0, 1.0),
+            _ => (1.0, 2.0, 2.0),
         };
         own.work.of(integrator, steps, order, solves)
     }
@@ -324,15 +334,15 @@ impl Ladder {
         time: f64,
         limit: f64,
     ) -> Outcome {
-        let (pace, steps) = (plan.pace(system.length), plan.steps.unwrap_or(1));
+        let pace = plan.pace(system.length);
         let own = &mut self.own[index];
         let most = |order: f64, solves: f64| {
             (limit / own.work.of(integrator, 1.0, order, solves)).clamp(1.0, 4.0 * f64::from(BUDGET))
         };
         match integrator {
             Integrator::Rattle => self.rattle.advance(system, time, pace),
-            Integrator::EnergyMomentum => own.energy_momentum.advance(system, time, pace),
-            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, steps),
+            Integrator::EnergyMomentum => own.energy_momentum.advance(system, time, pace, 2.0 * most(2.0, 2.0)),
+            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, plan.kutta_pace(system.length)),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, plan.fine_pace(system.length), 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, plan.fine_pace(system.length), 6),
             Integrator::Radau3 | Integrator::Radau5 => {
@@ -356,9 +366,10 @@ impl Ladder {
 }
 
 /// The methods that a contest may try.
-const RUNGS: [Integrator; 7] = [
+const RUNGS: [Integrator; 8] = [
     Integrator::Rattle,
     Integrator::EnergyMomentum,
+    Integrator::RungeKutta4,
     Integrator::Nystrom4,
     Integrator::Nystrom6,
     Integrator::Taylor,
@@ -377,6 +388,7 @@ impl IslandPlan {
         match integrator {
             // Ropes that tighten and slacken need events.
             Integrator::Rattle | Integrator::EnergyMomentum => self.accuracy >= SECOND_ORDER && !self.ropes,
+            Integrator::RungeKutta4 => self.accuracy >= KUTTA && !self.ropes,
             Integrator::Nystrom4 => self.accuracy >= FOURTH_ORDER && self.springs,
             Integrator::Nystrom6 => self.springs,
             Integrator::Radau3 => self.accuracy >= FIFTH_ORDER,

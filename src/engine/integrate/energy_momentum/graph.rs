@@ -143,8 +143,8 @@ impl Graph {
         graph
     }
 
-    /// Solves for a step of `h` seconds; the island is left as it is.
-    pub fn solve(&mut self, system: &System, h: f64, tight: f64) -> bool {
+    /// Solves for a step of `h` seconds; the island is left as it is. Returns whether it went well, and in how many iterations.
+    pub fn solve(&mut self, system: &System, h: f64, tight: f64) -> (bool, u32) {
         self.begin(system, h);
         let mut progress = Progress { tight, ..Progress::default() };
         let mut refactor = true;
@@ -159,7 +159,7 @@ impl Graph {
             let moved = self.correct(system);
             refactor = progress.linear(moved) > SLOW;
         }
-        progress.converged && self.turned_little(system)
+        (progress.converged && self.turned_little(system), progress.iterations)
     }
 
     fn begin(&mut self, system: &System, h: f64) {

@@ -32,8 +32,9 @@ const MOST_CHANGES: u32 = 3;
 const UNRESOLVED: f64 = 0.2;
 /// Most steps for an accuracy.
 const MOST_WITHIN: f64 = 40.0;
-/// Most Newton iterations.
+/// Most Newton iterations of a step; and those that all steps may take in any case.
 const MOST_ITERATIONS: u32 = 15;
+const FEWEST: f64 = 100.0;
 /// What the next correction would have to change to be worth making, in parts of a rod's length. Well above the rounding of a
 /// long chain's solve, well below what energy shows: its error is the square of what is left.
 const TIGHT: f64 = 1e-13;
@@ -56,6 +57,9 @@ pub(crate) struct EnergyMomentum {
     /// By node: turns of the rods that end there.
     turn: Vec<f64>,
     unresolved: Unresolved,
+    /// Newton iterations so far, and at most.
+    solves: u32,
+    most: f64,
 }
 
 #[derive(Debug, Default)]
@@ -67,9 +71,10 @@ enum Solver {
 }
 
 impl EnergyMomentum {
-    /// Carries the island through `time` [s] in equal steps, some of them cut where they fail. For one island only: the first
-    /// call takes its topology.
-    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace) -> Outcome {
+    /// Carries the island through `time` [s] in equal steps, some of them cut where they fail, in about `most` Newton iterations; fails
+    /// where they do not do. For one island only: the first call takes its topology.
+    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace, most: f64) -> Outcome {
+        (self.solves, self.most) = (0, most.max(FEWEST));
         if matches!(self.solver, Solver::None) {
             self.solver = match Tree::new(system) {
                 Some(tree) => Solver::Tree(Box::new(tree)),
@@ -89,6 +94,7 @@ impl EnergyMomentum {
         loop {
             let mut outcome = self.run(system, time, steps, (pace, tight));
             outcome.retries += changes;
+            outcome.solves = self.solves;
             outcome.kept = !outcome.failed && pace.keeps(outcome.error);
             let Pace::Within(tolerance) = pace else { return outcome };
             let more = steps_within(f64::from(steps), outcome.error / tolerance, 2.0);
@@ -139,11 +145,16 @@ impl EnergyMomentum {
     }
 
     fn solve(&mut self, system: &System, h: f64, tight: f64) -> bool {
-        match &mut self.solver {
-            Solver::None => false,
+        if f64::from(self.solves) > self.most {
+            return false;
+        }
+        let (solved, iterations) = match &mut self.solver {
+            Solver::None => (false, 0),
             Solver::Tree(tree) => tree.solve(system, h, tight),
             Solver::Graph(graph) => graph.solve(system, h, tight),
-        }
+        };
+        self.solves += iterations;
+        solved
     }
 
     fn apply(&self, system: &mut System, h: f64) {

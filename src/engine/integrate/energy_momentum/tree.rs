@@ -165,8 +165,8 @@ impl Tree {
         Some(tree)
     }
 
-    /// Solves for a step of `h` seconds; the island is left as it is.
-    pub fn solve(&mut self, system: &System, h: f64, tight: f64) -> bool {
+    /// Solves for a step of `h` seconds; the island is left as it is. Returns whether it went well, and in how many iterations.
+    pub fn solve(&mut self, system: &System, h: f64, tight: f64) -> (bool, u32) {
         self.begin(system, h);
         let extra = !self.springs.is_empty() || self.closing.is_some() || system.held.is_some();
         let mut progress = Progress { tight, ..Progress::default() };
@@ -184,7 +184,7 @@ impl Tree {
             let mu = self.close(system);
             progress.quadratic(self.correct(system, mu));
         }
-        progress.converged && self.turned_little(system)
+        (progress.converged && self.turned_little(system), progress.iterations)
     }
 
     /// The first guess: every node goes on with its velocity, every rod turns on with its own.

@@ -34,6 +34,10 @@ use scheme::{RADAU_3, RADAU_5, Scheme};
 use stages::{Stages, Values};
 use tree::Tree;
 
+/// Newton iterations of a step, in terms of which the most steps are understood; and how many steps it may take in any case: ten halvings
+/// that fail.
+const USUAL_ITERATIONS: f64 = 3.0;
+const FEWEST: f64 = 32.0;
 /// Most Newton iterations of a step.
 const MOST_ITERATIONS: u32 = 25;
 /// Newton's method ends where what is left is less than this part of the wanted error: energy drifts by what it leaves.
@@ -77,7 +81,7 @@ pub(crate) struct Task {
     pub member: Member,
     /// Parts of the time to begin with, if they are known.
     pub parts: Option<f64>,
-    /// Most steps.
+    /// Most steps, of three iterations each, for the sake of the accuracy; with those that Newton's method needs twice as many.
     pub most: f64,
 }
 
@@ -236,7 +240,8 @@ impl<const S: usize, const L: usize> Steps<S, L> {
             let error = if solved { self.stages.estimate() / caution } else { f64::INFINITY };
             let excess = error * (USUAL / step).sqrt() / tolerance;
             // Smaller steps are worth their cost as long as there are not too many.
-            let finer = f64::from(outcome.steps) + 2.0 * left / step <= task.most;
+            let spent = f64::from(outcome.steps + outcome.retries).max(f64::from(self.solves) / USUAL_ITERATIONS);
+            let finer = spent + 2.0 * left / step <= task.most;
             let refused = !solved || (!(excess <= 1.0) && finer);
             let event = if refused { None } else { self.first_event(system) };
             if event.is_some() && events >= most_events {
@@ -248,7 +253,7 @@ impl<const S: usize, const L: usize> Steps<S, L> {
                 self.restore(system);
                 outcome.retries += 1;
                 (h, careful) = (0.5 * step, true);
-                if !(h * FINEST >= time) {
+                if spent > 2.0 * task.most + FEWEST || !(h * FINEST >= time) {
                     return failed(outcome);
                 }
                 continue;
@@ -257,7 +262,7 @@ impl<const S: usize, const L: usize> Steps<S, L> {
             outcome.steps += 1;
             squares += error * error;
             left -= part * step;
-            h = if excess < SMALL && !careful { (2.0 * step).min(longest) } else { step };
+            h = if (excess < SMALL || !finer) && !careful { (2.0 * step).min(longest) } else { step };
             careful = false;
             self.stages.last_accelerations(&mut self.ax, &mut self.ay);
             if let Some((_, event)) = event {
