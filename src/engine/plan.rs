@@ -35,7 +35,7 @@ const LOCAL_NYSTROM: f64 = 0.07;
 const LOCAL_KUTTA: f64 = 0.01;
 /// The same for methods of order 2, whose errors add up more evenly; where anchors turn, RATTLE's estimate leaves out how errors of
 /// the velocity are carried on.
-const LOCAL_SECOND: f64 = 0.016;
+const LOCAL_SECOND: f64 = 0.006;
 const LOCAL_SECOND_TURNING: f64 = 0.014;
 
 /// Walls with which free bodies are carried from event to event: each is looked at for each body.
@@ -44,6 +44,8 @@ const MOST_WALLS: usize = 512;
 /// Loosest accuracy of what free bodies are carried with from event to event, and of series and Nyström's methods.
 const LOOSEST_LOCAL: f64 = 1e-5;
 const LOOSEST_SERIES: f64 = 1e-3;
+/// The same of methods of order 2: coarser than this one step mostly does for a frame, and errors depend on which frames get a second one.
+const LOOSEST_SECOND: f64 = 3e-3;
 
 /// The decisions for one world under one method.
 #[derive(Debug, Default)]
@@ -502,7 +504,7 @@ impl IslandPlan {
     /// What methods of order 2 are asked for on an island of this size [m].
     pub fn pace(&self, length: f64) -> Pace {
         let local = if self.turning > 0 { LOCAL_SECOND_TURNING } else { LOCAL_SECOND };
-        self.steps.map_or(Pace::Within(local * self.accuracy * length), Pace::Steps)
+        self.steps.map_or(Pace::Within(local * self.accuracy.min(LOOSEST_SECOND) * length), Pace::Steps)
     }
 
     /// The same for Nyström's methods.

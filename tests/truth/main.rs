@@ -1,6 +1,7 @@
 //! The truth itself: closed forms, the reference solver, and what is stored of it. Figures are printed; `--nocapture` to read.
 
 mod closed_form;
+mod dial;
 mod energy_momentum;
 mod forms;
 mod orders;

@@ -7,7 +7,7 @@
 //! constraints do not fit in: such islands go by Taylor series.
 
 use super::outcome::Outcome;
-use super::pace::{Pace, steps_within};
+use super::pace::{Pace, steps_next, steps_within};
 use crate::engine::island::System;
 
 /// Coefficients of the kicks and of the drifts between them.
@@ -29,7 +29,7 @@ const ORDER_4: Scheme = Scheme {
     order: 4,
     kicks: &[B4[0], B4[1], B4[2], 1.0 - 2.0 * (B4[0] + B4[1] + B4[2]), B4[2], B4[1], B4[0]],
     drifts: &[A4[0], A4[1], A4_3, A4_3, A4[1], A4[0]],
-    constant: 1e-4,
+    constant: 1.5e-4,
     swing: 3.0,
 };
 
@@ -92,14 +92,18 @@ impl Nystrom {
         system.unconstrained() && !system.damped()
     }
 
-    /// Carries the island through `time` [s] with order 4 or 6.
-    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace, order: u32) -> Outcome {
+    /// Carries the island through `time` [s] with order 4 or 6, for an accuracy in about `most` steps.
+    pub fn advance(&mut self, system: &mut System, time: f64, (pace, most): (Pace, f64), order: u32) -> Outcome {
+        let most = most.min(MOST_WITHIN);
         let scheme = if order == 6 { &ORDER_6 } else { &ORDER_4 };
         let fresh = Outcome { order: scheme.order, ..Outcome::default() };
         let nodes = system.nodes.len();
         self.ax.resize(nodes, 0.0);
         self.ay.resize(nodes, 0.0);
-        let least = if let Pace::Steps(steps) = pace { f64::from(steps) } else { 1.0 };
+        let least = match pace {
+            Pace::Steps(steps) => f64::from(steps),
+            Pace::Within(_) => f64::from(system.foresight.steps).clamp(1.0, most),
+        };
         let swing = system.rates(&mut self.load).swing;
         let mut steps = libm::ceil(time * swing / scheme.swing).max(least);
         if !(steps <= super::MOST_STEPS) {
@@ -113,12 +117,16 @@ impl Nystrom {
             match self.run(scheme, system, (time, steps, swing), (pace, changes)) {
                 Run::Done(error) => {
                     let kept = pace.keeps(error);
-                    return Outcome { retries: changes, steps: steps as u32, error, kept, ..fresh };
+                    let next = match pace {
+                        Pace::Steps(_) => 0,
+                        Pace::Within(tolerance) => steps_next(steps, error / tolerance, f64::from(scheme.order), 0.0),
+                    };
+                    return Outcome { retries: changes, steps: steps as u32, error, kept, next, ..fresh };
                 }
                 Run::Again(more) => {
                     // What takes more is not carried well: the last run, as it comes out.
-                    changes = if more > MOST_WITHIN { MOST_CHANGES } else { changes + 1 };
-                    steps = more.min(MOST_WITHIN).max(steps);
+                    changes = if more > most { MOST_CHANGES } else { changes + 1 };
+                    steps = more.min(most).max(steps);
                     restore(&self.start, system, &mut self.ax, &mut self.ay);
                 }
             }
@@ -173,11 +181,13 @@ impl Nystrom {
     ///
     /// What a method of order p leaves out are elementary differentials, h^(p+1) ω^(p−2) times the third derivative where the fastest part
     /// swings with ω: of that part itself, and of all that moves slowly with it, whose stages are off the way that stiff springs leave
-    /// free. The motion alone, however smooth, does not tell. h² (a' − a) stands for h³ times the third derivative.
+    /// free. The motion alone, however smooth, does not tell. Where springs turn faster than they swing, that is what further derivatives
+    /// grow with. h² (a' − a) stands for h³ times the third derivative.
     fn error(&self, scheme: &Scheme, system: &System, h: f64, swing: f64) -> f64 {
         let nodes = &system.nodes;
         let [x, y, _, _, ax, ay] = &self.before;
-        if !(system.springs.largest_turn(nodes, x, y) <= TURN) {
+        let turn = system.springs.largest_turn(nodes, x, y);
+        if !(turn <= TURN) {
             return system.length;
         }
         let mut third = 0.0;
@@ -186,7 +196,7 @@ impl Nystrom {
                 third += (after - before) * (after - before);
             }
         }
-        let growth = (0..scheme.order - 2).fold(1.0, |product, _| product * h * swing);
+        let growth = (0..scheme.order - 2).fold(1.0, |product, _| product * (h * swing + turn));
         scheme.constant * growth * h * h * (third / nodes.len() as f64).sqrt()
     }
 }

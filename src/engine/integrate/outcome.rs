@@ -21,11 +21,23 @@ pub(crate) struct Outcome {
     pub stiff: bool,
     /// The estimate is within what was asked for; true as well where nothing was.
     pub kept: bool,
+    /// Equal steps for the next time to begin with, where an accuracy is asked for; 0 if nothing is known.
+    pub next: u32,
 }
 
 impl Default for Outcome {
     fn default() -> Outcome {
-        Outcome { steps: 0, retries: 0, solves: 0, order: 0, error: 0.0, failed: false, stiff: false, kept: true }
+        Outcome {
+            steps: 0,
+            retries: 0,
+            solves: 0,
+            order: 0,
+            error: 0.0,
+            failed: false,
+            stiff: false,
+            kept: true,
+            next: 0,
+        }
     }
 }
 

@@ -34,6 +34,24 @@ pub(super) fn carried_on(steps: f64, smooth: f64) -> f64 {
     1.0 + smooth / (steps * steps * steps)
 }
 
+/// The part of what is allowed below which fewer steps are taken the next time.
+const MUCH_LESS: f64 = 0.4;
+/// How many fewer.
+const FEWER: f64 = 0.8;
+
+/// The steps to begin the next time with, after `steps` with local errors of `excess` times what is allowed: more where it was let pass
+/// as an estimate, fewer where those would clearly do, mostly the same, so that nothing is tried in vain and errors that cancel from one
+/// time to the next are equal.
+pub(super) fn steps_next(steps: f64, excess: f64, order: f64, smooth: f64) -> u32 {
+    if excess > 1.0 {
+        return steps as u32 + 1;
+    }
+    let fewer = libm::floor(FEWER * steps).max(1.0);
+    let carried = carried_on(fewer, smooth) / carried_on(steps, smooth);
+    let will_do = excess * carried * libm::pow(steps / fewer, order) < MUCH_LESS;
+    (if will_do { fewer } else { steps }) as u32
+}
+
 /// The steps to take instead of `steps`, where the local errors' sum is `excess` times what is allowed and falls with the power
 /// `order` of the number of steps; none if they will do.
 pub(super) fn steps_within(steps: f64, excess: f64, order: f64) -> Option<f64> {

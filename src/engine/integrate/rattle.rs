@@ -14,7 +14,7 @@
 //! h ω = 2: the step is cut before, and all steps are halved where the iterations do not converge.
 
 use super::outcome::Outcome;
-use super::pace::{Pace, SMOOTH, carried_on, steps_within};
+use super::pace::{Pace, SMOOTH, carried_on, steps_next, steps_within};
 use crate::engine::island::System;
 
 /// Largest turn of a rod and largest h ω in a step.
@@ -83,8 +83,8 @@ enum Run {
 
 impl Rattle {
     /// Carries the island through `time` [s]. Where the pace is a tolerance and the island needs so many steps to be stable that
-    /// an implicit method does better, nothing is done and the outcome says so.
-    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace) -> Outcome {
+    /// an implicit method does better, or more than `most`, nothing is done and the outcome says so.
+    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace, most: f64) -> Outcome {
         let mut outcome = Outcome { order: 2, ..Outcome::default() };
         self.reserve(system, pace);
         if !system.unconstrained() && system.rods.lambda.iter().all(|lambda| *lambda == 0.0) && !self.expect(system) {
@@ -92,11 +92,12 @@ impl Rattle {
         }
         let rates = system.rates(&mut self.load);
         let stable = libm::ceil(time * (rates.turn / TURN).max(rates.swing / SWING)).max(1.0);
-        let most = if system.unconstrained() { MOST_FREE } else { MOST_CONSTRAINED };
+        let most_stable = if system.unconstrained() { MOST_FREE } else { MOST_CONSTRAINED };
+        let most = most.min(MOST_WITHIN);
         let mut steps = match pace {
             Pace::Steps(steps) => stable.max(f64::from(steps)),
-            Pace::Within(_) if !(stable <= most) => return Outcome { stiff: true, ..outcome },
-            Pace::Within(_) => stable,
+            Pace::Within(_) if !(stable <= most_stable.min(most)) => return Outcome { stiff: true, ..outcome },
+            Pace::Within(_) => stable.max(f64::from(system.foresight.steps).min(most)),
         };
         if !(steps <= super::MOST_STEPS && meet(system)) {
             return Outcome { failed: true, kept: false, ..outcome };
@@ -115,13 +116,16 @@ impl Rattle {
                     outcome.steps = steps as u32;
                     outcome.error = error;
                     outcome.kept = pace.keeps(error);
+                    if let Pace::Within(tolerance) = pace {
+                        outcome.next = steps_next(steps, error / tolerance, 2.0, SMOOTH);
+                    }
                     return outcome;
                 }
                 Run::Again(more) => (steps, changes) = (more, changes + 1),
                 Run::Failed => steps *= 2.0,
             }
             outcome.retries += 1;
-            if watched && !(steps <= MOST_WITHIN) {
+            if watched && !(steps <= most) {
                 self.start.restore(system);
                 return Outcome { stiff: true, ..outcome };
             }

@@ -8,7 +8,7 @@
 //! something swings with ω they differ by h³ ω⁴ v/12, and the step is wrong by h⁵ ω⁴ v/120: the error estimate is h² |a₅ − a₄|/10.
 
 use super::outcome::{Outcome, in_parts};
-use super::pace::{Pace, steps_within};
+use super::pace::{Pace, steps_next, steps_within};
 use crate::engine::island::System;
 
 /// Largest turn of a rod and largest h ω in a step.
@@ -50,10 +50,11 @@ enum Run {
 
 impl RungeKutta {
     /// Carries the island through `time` [s], in more steps than the pace says where they would not be stable. Where it is a tolerance
-    /// that takes too many steps, the outcome says that an implicit method does better.
-    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace) -> Outcome {
+    /// that takes too many steps, or more than `most`, the outcome says that an implicit method does better.
+    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace, most: f64) -> Outcome {
         self.reserve(system.nodes.len());
         let mut outcome = Outcome { order: 4, ..Outcome::default() };
+        let most = most.min(MOST_WITHIN);
         let met = system.meet_constraints();
         // The multipliers, for the rates.
         self.accelerate(system);
@@ -61,8 +62,8 @@ impl RungeKutta {
         let stable = libm::ceil(time * (rates.turn / TURN).max(rates.swing / SWING)).max(1.0);
         let mut steps = match pace {
             Pace::Steps(steps) => stable.max(f64::from(steps)),
-            Pace::Within(_) if !(stable <= MOST_WITHIN) => return Outcome { stiff: true, kept: false, ..outcome },
-            Pace::Within(_) => stable,
+            Pace::Within(_) if !(stable <= most) => return Outcome { stiff: true, kept: false, ..outcome },
+            Pace::Within(_) => stable.max(f64::from(system.foresight.steps).min(most)),
         };
         if !(met && steps <= super::MOST_STEPS) {
             return Outcome { failed: true, kept: false, ..outcome };
@@ -73,9 +74,12 @@ impl RungeKutta {
                 Run::Done(error) => {
                     outcome.error = error;
                     outcome.kept = pace.keeps(error);
+                    if let Pace::Within(tolerance) = pace {
+                        outcome.next = steps_next(steps, error / tolerance, 4.0, 0.0);
+                    }
                     return outcome;
                 }
-                Run::Again(more) if more <= MOST_WITHIN => steps = more,
+                Run::Again(more) if more <= most => steps = more,
                 Run::Again(_) => return Outcome { stiff: true, kept: false, ..outcome },
                 Run::Failed => break,
             }

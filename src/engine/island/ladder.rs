@@ -2,8 +2,8 @@
 //!
 //! By hand it is the chosen one. By accuracy it is the cheapest that keeps it, found by trying: in a contest the method in use and all
 //! others that could be cheaper by what the motion asks of them at least (its fastest swing and turn) carry the island through the same
-//! step, each until it has cost as much as the best before it. Contests come after 2, 4, 8, … 64 steps, and at once where a method fails or
-//! does not keep the accuracy. What they find is kept with the world, so that a fresh stepper goes on alike.
+//! step, each until it has cost as much as the best before it. Contests come after 2, 4, 8, … 64 steps, at once where a method fails,
+//! does not keep the accuracy or costs much more than it did, and not so often that they themselves cost much. What they find is kept with the world, so that a fresh stepper goes on alike.
 //!
 //! Where no method keeps the accuracy within the work that a step may cost, the best result is taken, and the outcome says so. What was
 //! best goes on, with half the work after each such contest, down to an eighth, and contests become rare: trying in vain is not what
@@ -23,7 +23,7 @@ use crate::engine::integrate::rattle::Rattle;
 use crate::engine::integrate::rattle_turning::RattleTurning;
 use crate::engine::integrate::runge_kutta::{self, RungeKutta};
 use crate::engine::integrate::taylor::Taylor;
-use crate::engine::method::Integrator;
+use crate::engine::method::{Integrator, LinearSolver};
 use crate::engine::plan::{Carrier, IslandPlan};
 use crate::engine::world::World;
 use glam::DVec2;
@@ -33,6 +33,10 @@ const RAREST: u32 = 64;
 /// Steps of the world for which an island that no method can carry is left to the substeps, at most, before it is tried again:
 /// trying costs all that a step may.
 const LONGEST_WAIT: u32 = 64;
+/// What a contest costs in vain is at most this part of what is spent until the next one, as far as nothing calls for it.
+const SHARE: f64 = 0.25;
+/// So many times the work of the last contest's best calls for one.
+const GROWN: f64 = 1.5;
 /// A challenger must cost less than this part of the method in use.
 const WORTH: f64 = 0.9;
 /// Accuracies down to which methods of order 2, 4 and 5 are tried. Those of order 4 add up errors: the stiff chain is 1.4e-8 off
@@ -82,6 +86,24 @@ struct Result {
     held: Vec<bool>,
     pins: Vec<DVec2>,
     parts: [f64; 2],
+    steps: u32,
+}
+
+/// What a try may cost [ns].
+#[derive(Clone, Copy, Debug)]
+struct Limit {
+    /// By the time that is simulated. Steps of fixed order go on to the end all the same: where they cost more than that, all else does.
+    most: f64,
+    /// By the best so far, which costs so much.
+    rival: f64,
+}
+
+impl Limit {
+    const NONE: Limit = Limit { most: f64::INFINITY, rival: f64::INFINITY };
+
+    fn least(self) -> f64 {
+        self.most.min(self.rival)
+    }
 }
 
 /// A method's try.
@@ -168,7 +190,7 @@ impl Ladder {
             _ => true,
         };
         let integrator = if takes { integrator } else { Integrator::Taylor };
-        (integrator, self.run(index, (plan, system), integrator, time, f64::INFINITY))
+        (integrator, self.run(index, (plan, system), integrator, time, Limit::NONE))
     }
 
     /// An island whose discs anchors turn: RATTLE, or series.
@@ -198,42 +220,47 @@ impl Ladder {
         if plan.group.constraints.is_empty() {
             // Free fall is exact with both.
             let integrator = if system.damped() { Integrator::Taylor } else { Integrator::Rattle };
-            return (integrator, self.run(index, (plan, system), integrator, time, f64::INFINITY));
+            return (integrator, self.run(index, (plan, system), integrator, time, Limit::NONE));
         }
         let mut foresight = system.foresight;
         let dearest = DEAREST / f64::from(1u32 << foresight.lapses.min(MOST_HALVINGS));
         let most = dearest * 1e9 * time * self.own[index].work.links() / self.links;
+        let alone = Limit { most, ..Limit::NONE };
         let mut first = None;
         let passes = system.swing_through_zero(time) > 0.0;
         if passes {
             // Only series know of that instant; this step says nothing about others.
-            let tried = self.attempt(index, (plan, system), Integrator::Taylor, time, most);
+            let tried = self.attempt(index, (plan, system), Integrator::Taylor, time, alone);
             if tried.outcome.kept {
+                system.foresight.steps = foresight.steps;
                 return (Integrator::Taylor, tried.outcome);
             }
             first = Some(tried);
         } else if let Some(integrator) = foresight.integrator.filter(|integrator| plan.takes(*integrator)) {
-            let tried = self.attempt(index, (plan, system), integrator, time, most);
-            foresight.parts = system.foresight.parts;
+            let tried = self.attempt(index, (plan, system), integrator, time, alone);
+            (foresight.parts, foresight.steps) = (system.foresight.parts, system.foresight.steps);
             let will_do = tried.outcome.kept && !tried.outcome.failed || foresight.lapses > 0;
-            if will_do && foresight.due > 1 {
+            if will_do && foresight.due > 1 && tried.work <= GROWN * foresight.work {
                 let lapses = foresight.lapses.saturating_sub(u32::from(tried.outcome.kept));
                 system.foresight = Foresight { due: foresight.due - 1, lapses, ..foresight };
                 return (integrator, tried.outcome);
             }
             first = Some(tried);
         }
-        let best = self.contest(index, (plan, system), (world, time), (first, passes), most);
+        let (best, vain) = self.contest(index, (plan, system), (world, time), (first, passes), most);
         let stays = foresight.integrator == Some(best.integrator) && best.outcome.kept;
         let lapses = if best.outcome.kept { 0 } else { foresight.lapses + 1 };
-        let interval = if stays || lapses > 1 { (2 * foresight.interval).clamp(2, RAREST) } else { 2 };
-        let integrator = Some(best.integrator);
-        system.foresight = Foresight { integrator, interval, due: interval, lapses, ..system.foresight };
+        let interval = if stays || lapses > 1 { 2 * foresight.interval } else { 2 };
+        // The first step of all may be like no other.
+        let worth = if foresight.integrator.is_some() { vain / (SHARE * best.work.max(1.0)) } else { 0.0 };
+        let interval = interval.max(worth as u32).clamp(2, RAREST);
+        let (integrator, work) = (Some(best.integrator), best.work);
+        system.foresight = Foresight { integrator, interval, due: interval, lapses, work, ..system.foresight };
         (best.integrator, best.outcome)
     }
 
-    /// Tries all that could be cheaper than `first`, the result of which the island holds; leaves the best result in it. Where a
-    /// spring `passes` zero length only series are believed.
+    /// Tries all that could be cheaper than `first`, the result of which the island holds; leaves the best result in it. Returns with it
+    /// the work of the others [ns]. Where a spring `passes` zero length only series are believed.
     fn contest(
         &mut self,
         index: usize,
@@ -241,10 +268,11 @@ impl Ladder {
         (world, time): (&World, f64),
         (first, passes): (Option<Try>, bool),
         most: f64,
-    ) -> Try {
+    ) -> (Try, f64) {
         let failed =
             Try { integrator: Integrator::Taylor, outcome: Outcome { failed: true, ..Outcome::default() }, work: 0.0 };
         let mut best = first.filter(|first| !first.outcome.failed);
+        let mut work = first.map_or(0.0, |first| first.work);
         if best.is_some() {
             self.best.keep(system);
         }
@@ -259,8 +287,9 @@ impl Ladder {
             if known || !plan.takes(integrator) || !takes(integrator, system) {
                 continue;
             }
-            let limit = best.filter(|best| best.outcome.kept).map_or(most, |best| best.work.min(most));
-            if bound > limit && best.is_some() {
+            let rival = best.filter(|best| best.outcome.kept).map_or(f64::INFINITY, |best| best.work);
+            let limit = Limit { most, rival };
+            if bound > limit.least() && best.is_some() {
                 continue;
             }
             if !untouched {
@@ -270,6 +299,7 @@ impl Ladder {
             let mut tried = self.attempt(index, (plan, system), integrator, time, limit);
             tried.outcome.kept &= !passes || integrator == Integrator::Taylor;
             (untouched, holds_best) = (false, false);
+            work += tried.work;
             // The one in use stays unless another one is clearly cheaper.
             let worth = if best.is_some_and(|best| first.is_some_and(|f| f.integrator == best.integrator)) {
                 WORTH
@@ -285,12 +315,13 @@ impl Ladder {
         if best.is_some() && !holds_best {
             self.best.restore(system);
         }
-        best.unwrap_or(failed)
+        let best = best.unwrap_or(failed);
+        (best, work - best.work)
     }
 
     fn reload(&self, system: &mut System, world: &World, time: f64, parts: [f64; 2]) {
         system.load(world, time);
-        system.foresight.parts = parts;
+        (system.foresight.parts, system.foresight.steps) = (parts, 0);
     }
 
     /// Least work of a method on a motion with these rates [ns].
@@ -317,34 +348,36 @@ impl Ladder {
         (plan, system): (&IslandPlan, &mut System),
         integrator: Integrator,
         time: f64,
-        limit: f64,
+        limit: Limit,
     ) -> Try {
         let outcome = self.run(index, (plan, system), integrator, time, limit);
+        system.foresight.steps = outcome.next;
         let work = self.own[index].work.done(integrator, &outcome);
         let failed = outcome.failed || outcome.stiff;
         Try { integrator, outcome: Outcome { failed, kept: outcome.kept && !failed, ..outcome }, work }
     }
 
-    /// Runs one method, within about `limit` [ns] where it can be told.
+    /// Runs one method, within about the limit.
     fn run(
         &mut self,
         index: usize,
         (plan, system): (&IslandPlan, &mut System),
         integrator: Integrator,
         time: f64,
-        limit: f64,
+        limit: Limit,
     ) -> Outcome {
         let pace = plan.pace(system.length);
         let own = &mut self.own[index];
         let most = |order: f64, solves: f64| {
-            (limit / own.work.of(integrator, 1.0, order, solves)).clamp(1.0, 4.0 * f64::from(BUDGET))
+            (limit.least() / own.work.of(integrator, 1.0, order, solves)).clamp(1.0, 4.0 * f64::from(BUDGET))
         };
+        let steps = own.work.steps(integrator, limit.rival);
         match integrator {
-            Integrator::Rattle => self.rattle.advance(system, time, pace),
+            Integrator::Rattle => self.rattle.advance(system, time, pace, steps),
             Integrator::EnergyMomentum => own.energy_momentum.advance(system, time, pace, 2.0 * most(2.0, 2.0)),
-            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, plan.kutta_pace(system.length)),
-            Integrator::Nystrom4 => self.nystrom.advance(system, time, plan.fine_pace(system.length), 4),
-            Integrator::Nystrom6 => self.nystrom.advance(system, time, plan.fine_pace(system.length), 6),
+            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, plan.kutta_pace(system.length), steps),
+            Integrator::Nystrom4 => self.nystrom.advance(system, time, (plan.fine_pace(system.length), steps), 4),
+            Integrator::Nystrom6 => self.nystrom.advance(system, time, (plan.fine_pace(system.length), steps), 6),
             Integrator::Radau3 | Integrator::Radau5 => {
                 let five = usize::from(integrator == Integrator::Radau5);
                 let member = [Member::Three, Member::Five][five];
@@ -358,7 +391,7 @@ impl Ladder {
             _ => {
                 let tolerance = plan.series_tolerance * system.length;
                 let order = plan.series_order();
-                let budget = if limit.is_finite() { most(order, 0.0) as u32 } else { BUDGET };
+                let budget = if limit.least().is_finite() { most(order, 0.0) as u32 } else { BUDGET };
                 self.taylor.advance(system, time, tolerance, budget.max(1))
             }
         }
@@ -385,6 +418,11 @@ fn takes(integrator: Integrator, system: &System) -> bool {
 impl IslandPlan {
     /// Whether a contest may try a method: by its order, and by what it takes.
     pub fn takes(&self, integrator: Integrator) -> bool {
+        // Others do not solve for the multipliers by themselves, and a solver was chosen.
+        let chosen = self.linear.0 != LinearSolver::SparseLdl;
+        if chosen && !matches!(integrator, Integrator::Rattle | Integrator::RungeKutta4 | Integrator::Taylor) {
+            return false;
+        }
         match integrator {
             // Ropes that tighten and slacken need events.
             Integrator::Rattle | Integrator::EnergyMomentum => self.accuracy >= SECOND_ORDER && !self.ropes,
@@ -407,7 +445,7 @@ impl Result {
         self.rods.clone_from(&system.rods.lambda);
         self.held.clone_from(&system.rods.held);
         self.pins.clone_from(&system.pins.lambda);
-        self.parts = system.foresight.parts;
+        (self.parts, self.steps) = (system.foresight.parts, system.foresight.steps);
     }
 
     fn restore(&self, system: &mut System) {
@@ -417,6 +455,7 @@ impl Result {
         system.rods.lambda.copy_from_slice(&self.rods);
         system.rods.held.copy_from_slice(&self.held);
         system.pins.lambda.copy_from_slice(&self.pins);
+        system.foresight.steps = self.steps;
         // What was learnt since is not forgotten.
         let learnt = system.foresight.parts;
         system.foresight.parts = std::array::from_fn(|i| if learnt[i] > 0.0 { learnt[i] } else { self.parts[i] });

@@ -48,11 +48,11 @@ impl Work {
         let pairs = 0.4 * steps + 0.3 * solves;
         match integrator {
             Integrator::Rattle if free => 300.0 + 40.0 * steps + links * (10.0 + 13.0 * steps),
-            Integrator::Rattle => 500.0 + 60.0 * steps + links * (25.0 + 26.0 * steps) + steps * (factor + 3.0 * solve),
-            Integrator::EnergyMomentum if tree && !extra => 400.0 + 100.0 * pairs + links * (15.0 + 65.0 * pairs),
+            Integrator::Rattle => 500.0 + 60.0 * steps + links * (60.0 + 26.0 * steps) + steps * (factor + 3.0 * solve),
+            Integrator::EnergyMomentum if tree && !extra => 130.0 + links * (15.0 + 65.0 * pairs),
             Integrator::EnergyMomentum if tree => 400.0 + 150.0 * pairs + links * (15.0 + 95.0 * pairs),
             Integrator::EnergyMomentum => links * (20.0 + 70.0 * pairs) + pairs * (primal + 2.0 * substitute),
-            Integrator::RungeKutta4 => 300.0 + steps * (links * 105.0 + 4.0 * factor + 6.0 * solve),
+            Integrator::RungeKutta4 => 400.0 + steps * (320.0 + links * 90.0 + 4.0 * factor + 6.0 * solve),
             Integrator::Nystrom4 => 300.0 + links * (10.0 + 60.0 * steps),
             Integrator::Nystrom6 => 300.0 + links * (10.0 + 105.0 * steps),
             Integrator::Radau3 => {
@@ -76,10 +76,16 @@ impl Work {
         }
     }
 
-    /// Work that an integrator has done.
+    /// Work that an integrator has done; without what it took back, where it begins the next time with what was found.
     pub fn done(&self, integrator: Integrator, outcome: &Outcome) -> f64 {
-        let steps = f64::from(outcome.steps + outcome.retries);
+        let steps = f64::from(if outcome.next > 0 { outcome.steps } else { outcome.steps + outcome.retries });
         self.of(integrator, steps, f64::from(outcome.order), f64::from(outcome.solves))
+    }
+
+    /// Steps of a method of fixed order that so much work [ns] is enough for, at least one.
+    pub fn steps(&self, integrator: Integrator, work: f64) -> f64 {
+        let none = self.of(integrator, 0.0, 0.0, 0.0);
+        libm::floor((work - none) / (self.of(integrator, 1.0, 0.0, 0.0) - none)).max(1.0)
     }
 
     /// Links, for sharing out what a step may cost.

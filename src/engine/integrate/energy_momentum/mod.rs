@@ -17,7 +17,7 @@ mod tree;
 mod unresolved;
 
 use super::outcome::{Outcome, in_parts};
-use super::pace::{Pace, SMOOTH, SMOOTH_NET, carried_on, steps_within};
+use super::pace::{Pace, SMOOTH, SMOOTH_NET, carried_on, steps_next, steps_within};
 use crate::engine::island::System;
 use graph::Graph;
 use moment::Moment;
@@ -83,7 +83,10 @@ impl EnergyMomentum {
         }
         let (mut steps, tight) = match pace {
             Pace::Steps(steps) => (steps, TIGHT),
-            Pace::Within(tolerance) => (1, (LOOSE * tolerance / system.length).clamp(TIGHT, FAR)),
+            Pace::Within(tolerance) => {
+                let steps = system.foresight.steps.clamp(1, MOST_WITHIN as u32);
+                (steps, (LOOSE * tolerance / system.length).clamp(TIGHT, FAR))
+            }
         };
         let mut changes = 0;
         if !meet(system) {
@@ -92,11 +95,13 @@ impl EnergyMomentum {
         self.start.keep(system);
         self.unresolved.reserve(system);
         loop {
+            let before = self.solves;
             let mut outcome = self.run(system, time, steps, (pace, tight));
             outcome.retries += changes;
-            outcome.solves = self.solves;
+            outcome.solves = self.solves - before;
             outcome.kept = !outcome.failed && pace.keeps(outcome.error);
             let Pace::Within(tolerance) = pace else { return outcome };
+            outcome.next = steps_next(f64::from(steps), outcome.error / tolerance, 2.0, self.smooth());
             let more = steps_within(f64::from(steps), outcome.error / tolerance, 2.0);
             let Some(more) = more.filter(|_| !outcome.failed && changes < MOST_CHANGES) else { return outcome };
             if more > MOST_WITHIN {
@@ -139,9 +144,12 @@ impl EnergyMomentum {
             let before = if outcome.steps == 1 { &self.start } else { &self.before };
             error += UNRESOLVED * self.unresolved.error(system, before, last);
         }
-        let smooth = if matches!(self.solver, Solver::Graph(_)) { SMOOTH_NET } else { SMOOTH };
-        outcome.error = carried_on(f64::from(steps), smooth) * error;
+        outcome.error = carried_on(f64::from(steps), self.smooth()) * error;
         outcome
+    }
+
+    fn smooth(&self) -> f64 {
+        if matches!(self.solver, Solver::Graph(_)) { SMOOTH_NET } else { SMOOTH }
     }
 
     fn solve(&mut self, system: &System, h: f64, tight: f64) -> bool {
