@@ -568,7 +568,18 @@ fn no_command_overwrites_the_scene_that_it_reads() {
 /// Starts a run without end into `out.csv`, and waits until it has begun the file.
 #[cfg(unix)]
 fn endless(folder: &TempDir) -> std::process::Child {
-    let mut run = command(&["run", "pendulum", "--seconds", "1000000", "--every", "0.1", "--csv", "out.csv"]);
+    endless_with(folder, HEARD)
+}
+
+#[cfg(unix)]
+const HEARD: &str = "--default-signal=INT,TERM,HUP";
+
+/// The same, begun by `env` with this about signals: what a test runner in the background ignores is inherited.
+#[cfg(unix)]
+fn endless_with(folder: &TempDir, signals: &str) -> std::process::Child {
+    let mut run = Command::new("env");
+    run.arg(signals).arg(env!("CARGO_BIN_EXE_tautline"));
+    run.args(["run", "pendulum", "--seconds", "1000000", "--every", "0.1", "--csv", "out.csv"]);
     let child = run.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
     let begun = std::time::Instant::now();
     let is_part = |name: &std::ffi::OsString| name.to_string_lossy().ends_with(".part");
@@ -583,15 +594,23 @@ fn endless(folder: &TempDir) -> std::process::Child {
 #[test]
 #[cfg(unix)]
 fn a_run_that_is_stopped_keeps_its_rows() {
-    for signal in ["-INT", "-TERM"] {
+    for (signal, signals) in [("-INT", HEARD), ("-TERM", HEARD), ("-TERM", "--ignore-signal=INT,HUP")] {
         let folder = folder();
         std::fs::write(path_in(&folder, "out.csv"), "old").expect("a file");
-        let child = endless(&folder);
+        let mut child = endless_with(&folder, signals);
+        if signals != HEARD {
+            for ignored in ["-INT", "-HUP"] {
+                let asked = Command::new("kill").args([ignored, &child.id().to_string()]).status().expect("kill");
+                assert!(asked.success());
+            }
+            std::thread::sleep(std::time::Duration::from_millis(200));
+            assert!(child.try_wait().expect("it can be asked").is_none(), "what is ignored stays ignored");
+        }
         assert_eq!(read(&path_in(&folder, "out.csv")), "old", "until it is complete the old one stays");
         let stopped = Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill");
         assert!(stopped.success());
         let output = child.wait_with_output().expect("it ends");
-        assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
+        assert_eq!(output.status.code(), Some(130), "{signal} {signals}: {}", text(&output.stderr));
         assert!(text(&output.stdout).contains("stopped early"), "{}", text(&output.stdout));
         let rows = rows(&read(&path_in(&folder, "out.csv")));
         assert!(rows.len() > 10 && rows.iter().all(|row| row.len() == 8), "{}", rows.len());

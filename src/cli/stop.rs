@@ -12,8 +12,7 @@ pub(super) static ASKED: AtomicBool = AtomicBool::new(false);
 
 /// From now on the first request is left to the command, and the second does not wait for it.
 pub(super) fn listen() {
-    // Where requests are ignored, under nohup say, that stays so. Without a handler a request ends the program at once.
-    let _ = ctrlc::try_set_handler(|| {
+    crate::stop::listen(|| {
         if ASKED.swap(true, Ordering::Relaxed) {
             std::process::exit(i32::from(STOPPED));
         }

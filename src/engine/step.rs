@@ -103,7 +103,8 @@ impl Stepper {
             self.islands.mark_carried(&mut self.fallback.in_island);
             swap(&mut self.plan, &mut self.fallback);
         }
-        if self.given_up != self.islands.given_up() {
+        // Not `!=`: comparing memory that is not there, as empty lists do, takes longer than a small step.
+        if !self.given_up.iter().eq(self.islands.given_up()) {
             self.given_up.clear();
             self.given_up.extend_from_slice(self.islands.given_up());
             self.broad.reset();

@@ -10,6 +10,7 @@ mod timing;
 pub use shot::{ShotOptions, shot};
 
 use crate::scene;
+use crate::stop;
 use anyhow::anyhow;
 use desktop::{Desktop, Wake};
 use std::ffi::{OsStr, OsString};
@@ -38,8 +39,7 @@ pub fn run(scene: Option<&OsStr>) -> anyhow::Result<()> {
         }
     };
     let proxy = event_loop.create_proxy();
-    // Where such requests are ignored that stays so.
-    let _ = ctrlc::try_set_handler(move || drop(proxy.send_event(Wake::Leave)));
+    stop::listen(move || drop(proxy.send_event(Wake::Leave)));
     let mut desktop = Desktop::new(event_loop.create_proxy(), setup, timing);
     let (ended, panic) = quietly(|| event_loop.run_app(&mut desktop));
     match ended {

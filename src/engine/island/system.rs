@@ -162,7 +162,7 @@ impl System {
     /// Diagonal of the box around all nodes, or the longest rod or spring if that is longer; 1 m for a single point.
     fn measure(&self) -> f64 {
         let [width, height] = self.nodes.extent();
-        let size = width.hypot(height).max(self.longest);
+        let size = (width * width + height * height).sqrt().max(self.longest);
         if size > 0.0 && size.is_finite() { size } else { 1.0 }
     }
 

@@ -92,7 +92,8 @@ impl System {
         }
         for (i, (a, b)) in self.springs.a.iter().zip(&self.springs.b).enumerate() {
             let (a, b) = (*a as usize, *b as usize);
-            let length = (nodes.x[b] - nodes.x[a]).hypot(nodes.y[b] - nodes.y[a]);
+            let (dx, dy) = (nodes.x[b] - nodes.x[a], nodes.y[b] - nodes.y[a]);
+            let length = (dx * dx + dy * dy).sqrt();
             let k = self.springs.stiffness[i];
             let ends = [a, b].map(|point| self.turning.end(point as u32));
             add(
