@@ -83,7 +83,7 @@ fn a_warm_step_allocates_nothing() {
     // Warm is an island that has seen a contest of all methods which may be the cheapest in the motion that it goes through.
     for name in ["truth/bridge", "truth/rope", "truth/heavy_rope", "truth/stiff_chain"] {
         for accuracy in [1e-3, 1e-6, 1e-9] {
-            let found = allocations(name, |method| Method { accuracy, ..method }, 600);
+            let found = allocations(name, |method| Method { accuracy, ..method }, 1800);
             println!("{name} to {accuracy:e}: {found} allocations");
             assert_eq!(found, 0, "{name} to {accuracy:e}");
         }

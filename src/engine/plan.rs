@@ -30,9 +30,9 @@ const LOCAL_SWINGING: f64 = 0.005;
 /// The same where anchors turn: at 0.15 chains of discs miss the bounds of `tests/turning`.
 const LOCAL_TURNING: f64 = 0.08;
 /// The same for Nyström's methods, whose estimate is a bound.
-const LOCAL_NYSTROM: f64 = 0.07;
+const LOCAL_NYSTROM: f64 = 0.12;
 /// The same for Runge and Kutta's.
-const LOCAL_KUTTA: f64 = 0.01;
+const LOCAL_KUTTA: f64 = 0.02;
 /// The same for methods of order 2, whose errors add up more evenly; where anchors turn, RATTLE's estimate leaves out how errors of
 /// the velocity are carried on.
 const LOCAL_SECOND: f64 = 0.006;
@@ -45,7 +45,7 @@ const MOST_WALLS: usize = 512;
 const LOOSEST_LOCAL: f64 = 1e-5;
 const LOOSEST_SERIES: f64 = 1e-3;
 /// The same of methods of order 2: coarser than this one step mostly does for a frame, and errors depend on which frames get a second one.
-const LOOSEST_SECOND: f64 = 3e-3;
+const LOOSEST_SECOND: f64 = 1e-2;
 
 /// The decisions for one world under one method.
 #[derive(Debug, Default)]

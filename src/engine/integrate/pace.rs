@@ -34,9 +34,9 @@ pub(super) fn carried_on(steps: f64, smooth: f64) -> f64 {
     1.0 + smooth / (steps * steps * steps)
 }
 
-/// The part of what is allowed below which fewer steps are taken the next time.
+/// The part of what is allowed that fewer steps the next time may be expected to leave.
 const MUCH_LESS: f64 = 0.4;
-/// How many fewer.
+/// How many fewer at most.
 const FEWER: f64 = 0.8;
 
 /// The steps to begin the next time with, after `steps` with local errors of `excess` times what is allowed: more where it was let pass
@@ -46,9 +46,10 @@ pub(super) fn steps_next(steps: f64, excess: f64, order: f64, smooth: f64) -> u3
     if excess > 1.0 {
         return steps as u32 + 1;
     }
-    let fewer = libm::floor(FEWER * steps).max(1.0);
+    let fewest = libm::floor(FEWER * steps).max(1.0);
+    let fewer = libm::ceil(steps * libm::pow(excess / MUCH_LESS, 1.0 / order)).max(fewest);
     let carried = carried_on(fewer, smooth) / carried_on(steps, smooth);
-    let will_do = excess * carried * libm::pow(steps / fewer, order) < MUCH_LESS;
+    let will_do = fewer < steps && excess * carried * libm::pow(steps / fewer, order) < MUCH_LESS;
     (if will_do { fewer } else { steps }) as u32
 }
 

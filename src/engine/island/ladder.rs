@@ -34,9 +34,11 @@ const RAREST: u32 = 64;
 /// trying costs all that a step may.
 const LONGEST_WAIT: u32 = 64;
 /// What a contest costs in vain is at most this part of what is spent until the next one, as far as nothing calls for it.
-const SHARE: f64 = 0.25;
+const SHARE: f64 = 0.15;
 /// So many times the work of the last contest's best calls for one.
 const GROWN: f64 = 1.5;
+/// Radau's methods find the parts to begin with by trying: what they may cost more than a rival the first time.
+const LEARNING: f64 = 2.0;
 /// A challenger must cost less than this part of the method in use.
 const WORTH: f64 = 0.9;
 /// Accuracies down to which methods of order 2, 4 and 5 are tried. Those of order 4 add up errors: the stiff chain is 1.4e-8 off
@@ -374,7 +376,9 @@ impl Ladder {
         let steps = own.work.steps(integrator, limit.rival);
         match integrator {
             Integrator::Rattle => self.rattle.advance(system, time, pace, steps),
-            Integrator::EnergyMomentum => own.energy_momentum.advance(system, time, pace, 2.0 * most(2.0, 2.0)),
+            Integrator::EnergyMomentum => {
+                own.energy_momentum.advance(system, time, pace, (2.0 * most(2.0, 2.0), steps))
+            }
             Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, plan.kutta_pace(system.length), steps),
             Integrator::Nystrom4 => self.nystrom.advance(system, time, (plan.fine_pace(system.length), steps), 4),
             Integrator::Nystrom6 => self.nystrom.advance(system, time, (plan.fine_pace(system.length), steps), 6),
@@ -382,8 +386,13 @@ impl Ladder {
                 let five = usize::from(integrator == Integrator::Radau5);
                 let member = [Member::Three, Member::Five][five];
                 let parts = Some(system.foresight.parts[five]).filter(|parts| *parts > 0.0);
-                let task =
-                    Task { pace: plan.whole_pace(system.length), member, parts, most: most(5.0, 3.0).min(1024.0) };
+                let task = Task {
+                    pace: plan.whole_pace(system.length),
+                    member,
+                    parts,
+                    most: most(5.0, 3.0).min(1024.0),
+                    rival: LEARNING * steps,
+                };
                 let (outcome, parts) = own.radau.advance(system, time, &task);
                 system.foresight.parts[five] = parts;
                 outcome

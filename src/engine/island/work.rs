@@ -48,11 +48,15 @@ impl Work {
         let pairs = 0.4 * steps + 0.3 * solves;
         match integrator {
             Integrator::Rattle if free => 300.0 + 40.0 * steps + links * (10.0 + 13.0 * steps),
-            Integrator::Rattle => 500.0 + 60.0 * steps + links * (60.0 + 26.0 * steps) + steps * (factor + 3.0 * solve),
+            Integrator::Rattle => {
+                350.0 + 110.0 * steps + links * (62.0 + 20.0 * steps) + steps * (factor + 3.0 * solve)
+            }
             Integrator::EnergyMomentum if tree && !extra => 130.0 + links * (15.0 + 65.0 * pairs),
             Integrator::EnergyMomentum if tree => 400.0 + 150.0 * pairs + links * (15.0 + 95.0 * pairs),
             Integrator::EnergyMomentum => links * (20.0 + 70.0 * pairs) + pairs * (primal + 2.0 * substitute),
-            Integrator::RungeKutta4 => 400.0 + steps * (320.0 + links * 90.0 + 4.0 * factor + 6.0 * solve),
+            Integrator::RungeKutta4 => {
+                400.0 + 45.0 * links + steps * (350.0 + 48.0 * links + 4.0 * factor + 6.0 * solve)
+            }
             Integrator::Nystrom4 => 300.0 + links * (10.0 + 60.0 * steps),
             Integrator::Nystrom6 => 300.0 + links * (10.0 + 105.0 * steps),
             Integrator::Radau3 => {
@@ -85,11 +89,21 @@ impl Work {
     /// Steps of a method of fixed order that so much work [ns] is enough for, at least one.
     pub fn steps(&self, integrator: Integrator, work: f64) -> f64 {
         let none = self.of(integrator, 0.0, 0.0, 0.0);
-        libm::floor((work - none) / (self.of(integrator, 1.0, 0.0, 0.0) - none)).max(1.0)
+        let one = self.of(integrator, 1.0, 0.0, usual_solves(integrator));
+        libm::floor((work - none) / (one - none)).max(1.0)
     }
 
     /// Links, for sharing out what a step may cost.
     pub fn links(&self) -> f64 {
         self.links
+    }
+}
+
+/// Newton iterations of a step, as a rule.
+pub(crate) fn usual_solves(integrator: Integrator) -> f64 {
+    match integrator {
+        Integrator::EnergyMomentum => 2.0,
+        Integrator::Radau3 | Integrator::Radau5 => 3.0,
+        _ => 0.0,
     }
 }

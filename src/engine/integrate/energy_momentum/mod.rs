@@ -72,8 +72,8 @@ enum Solver {
 
 impl EnergyMomentum {
     /// Carries the island through `time` [s] in equal steps, some of them cut where they fail, in about `most` Newton iterations; fails
-    /// where they do not do. For one island only: the first call takes its topology.
-    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace, most: f64) -> Outcome {
+    /// where they do not do. No more than `dearest` steps are tried for an accuracy. For one island only: the first call takes its topology.
+    pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace, (most, dearest): (f64, f64)) -> Outcome {
         (self.solves, self.most) = (0, most.max(FEWEST));
         if matches!(self.solver, Solver::None) {
             self.solver = match Tree::new(system) {
@@ -104,7 +104,7 @@ impl EnergyMomentum {
             outcome.next = steps_next(f64::from(steps), outcome.error / tolerance, 2.0, self.smooth());
             let more = steps_within(f64::from(steps), outcome.error / tolerance, 2.0);
             let Some(more) = more.filter(|_| !outcome.failed && changes < MOST_CHANGES) else { return outcome };
-            if more > MOST_WITHIN {
+            if more > MOST_WITHIN.min(dearest) {
                 // What flies about so fast is carried better by a method of higher order.
                 return outcome;
             }

@@ -83,6 +83,8 @@ pub(crate) struct Task {
     pub parts: Option<f64>,
     /// Most steps, of three iterations each, for the sake of the accuracy; with those that Newton's method needs twice as many.
     pub most: f64,
+    /// So many cost what another method does with it.
+    pub rival: f64,
 }
 
 /// Scratch memory for one island.
@@ -243,6 +245,13 @@ impl<const S: usize, const L: usize> Steps<S, L> {
             let spent = f64::from(outcome.steps + outcome.retries).max(f64::from(self.solves) / USUAL_ITERATIONS);
             let finer = spent + 2.0 * left / step <= task.most;
             let refused = !solved || (!(excess <= 1.0) && finer);
+            let ahead = if refused { 2.0 * left / step } else { 0.0 };
+            if spent + ahead > task.rival {
+                return (
+                    Outcome { stiff: true, kept: false, solves: self.solves, ..outcome },
+                    (time / step).min(FINEST),
+                );
+            }
             let event = if refused { None } else { self.first_event(system) };
             if event.is_some() && events >= most_events {
                 return failed(outcome);
