@@ -32,7 +32,7 @@ fn frame(world: World) -> Frame {
         method: Method::default(),
         report: StepReport::default(),
         measures: Measures::default(),
-        plan: String::new(),
+        plan: "".into(),
         running: false,
         speed: Speed { wanted: 1.0, slow: false, achieved: 1.0 },
         fault: None,

@@ -336,7 +336,7 @@ fn discs_turned_off_their_centres_stay_finite_under_the_dial_and_say_what_carrie
         for seed in 0..100 {
             let mut world = turning_world(&mut Random::new(2 * seed));
             let mut stepper = Stepper::new(method).unwrap();
-            assert!(stepper.plan(&world).sentence().contains("off a centre"), "seed {seed}");
+            assert!(stepper.plan(&world).islands.iter().any(|island| island.turning > 0), "seed {seed}");
             for step in 0..60 {
                 let report = stepper.step(&mut world);
                 assert!(is_finite(&world), "seed {seed}, {accuracy:e}, step {step}: not a number in the world");

@@ -71,7 +71,7 @@ pub struct Frame {
     /// Where the bodies were after each of the last steps.
     pub trace: Trace,
     /// What the plan decided, in one sentence.
-    pub plan: String,
+    pub plan: Arc<str>,
     pub running: bool,
     pub speed: Speed,
     /// What went wrong last, and how to mend it, until dismissed or resolved.

@@ -12,6 +12,7 @@ pub mod history;
 pub mod keys;
 pub mod laboratory;
 pub mod pick;
+mod plan_text;
 pub mod plot_data;
 pub mod rescue;
 pub mod session;

@@ -7,6 +7,7 @@ use super::edit;
 use super::frame::{Frame, SLOW, SceneInfo, Speed};
 use super::history::{History, State};
 use super::laboratory::{Job, LabOrder, Laboratory};
+use super::plan_text::PlanText;
 use super::plot_data::{Plots, Sample};
 use super::trace::Trace;
 use super::{pick, setting};
@@ -32,6 +33,7 @@ const SETTLING: Duration = Duration::from_secs(1);
 pub(super) struct Simulation {
     world: World,
     stepper: Stepper,
+    plan_text: PlanText,
     /// The scene as it was opened.
     start: Arc<Setup>,
     scene: Arc<SceneInfo>,
@@ -82,6 +84,7 @@ impl Simulation {
         let mut simulation = Simulation {
             world: start.world.clone(),
             stepper,
+            plan_text: PlanText::default(),
             scene: Arc::new(info(&start, 1)),
             history: History::default(),
             setting: None,
@@ -155,7 +158,7 @@ impl Simulation {
             measures: self.measures,
             plots: self.plots.clone(),
             trace: self.trace.clone(),
-            plan: self.stepper.plan(&self.world).sentence().to_string(),
+            plan: self.plan_text.of(&mut self.stepper, &self.world),
             running: self.running,
             speed: Speed { wanted: self.speed, slow: self.slow, achieved },
             fault: self.fault.clone(),

@@ -28,7 +28,7 @@ pub use error::EngineError;
 pub use glam::DVec2;
 pub use id::Id;
 pub use method::{Integrator, LinearSolver, Method, Solver};
-pub use plan::Plan;
+pub use plan::{Carrier, Plan};
 pub use report::{Divergence, Stage, StepReport};
 pub use shape::{Shape, Wall};
 pub use step::Stepper;

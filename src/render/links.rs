@@ -258,7 +258,7 @@ mod tests {
             measures: Measures::default(),
             plots: crate::app::Plots::default(),
             trace: crate::app::Trace::default(),
-            plan: String::new(),
+            plan: "".into(),
             running: true,
             speed: Speed { wanted: 1.0, slow: false, achieved: 1.0 },
             fault: None,

@@ -66,7 +66,7 @@ pub(super) fn show(ui: &mut Ui, frame: &Frame, report: &LabReport) {
     let area = ScrollArea::vertical().id_salt("lab known").auto_shrink(false);
     let lines = |ui: &mut Ui| {
         ui.add(Label::new(RichText::new(title).heading().color(colours.strong)).wrap());
-        for text in [counts.as_str(), &reference, &frame.plan, next].into_iter().filter(|text| !text.is_empty()) {
+        for text in [counts.as_str(), &reference, &*frame.plan, next].into_iter().filter(|text| !text.is_empty()) {
             ui.add(Label::new(RichText::new(text).color(colours.weak)).wrap());
             ui.add_space(theme::GRID);
         }

@@ -94,12 +94,18 @@ fn redundant_rods_are_shared_reported_or_given_up_but_never_lost() {
 #[test]
 fn a_large_island_is_solved_by_the_sparse_method_and_the_plan_says_so() {
     let net = scene::open("truth/rigid_net").unwrap().world;
-    let mut stepper = Stepper::new(taylor(LinearSolver::Lu, 10)).unwrap();
-    let sentence = stepper.plan(&net).sentence().to_owned();
+    let method = taylor(LinearSolver::Lu, 10);
+    let mut stepper = Stepper::new(method).unwrap();
+    let plan = stepper.plan(&net);
+    assert_eq!(plan.islands[0].linear.0, LinearSolver::SparseLdl);
+    let sentence = plan.sentence(&net, &method);
     assert!(sentence.contains("solved by LU (1 island of more than 400 rows by sparse LDL)"), "{sentence}");
     let rope = scene::open("truth/rope").unwrap().world;
-    let mut stepper = Stepper::new(taylor(LinearSolver::GaussSeidel, 10)).unwrap();
-    let sentence = stepper.plan(&rope).sentence().to_owned();
+    let method = taylor(LinearSolver::GaussSeidel, 10);
+    let mut stepper = Stepper::new(method).unwrap();
+    let plan = stepper.plan(&rope);
+    assert_eq!(plan.islands[0].linear, (LinearSolver::GaussSeidel, 10));
+    let sentence = plan.sentence(&rope, &method);
     assert!(sentence.contains("solved by Gauss-Seidel in at most 10 sweeps"), "{sentence}");
 }
 

@@ -129,7 +129,8 @@ fn a_hold_on_the_rim_that_moves_along_it_is_followed() {
     world.set_grip(None).unwrap();
     let turning = omega(&world, 0);
     let mut stepper = Stepper::new(by_accuracy(1e-10)).unwrap();
-    assert!(stepper.plan(&world).sentence().contains("particles only"));
+    let plan = stepper.plan(&world);
+    assert!(!plan.spin && plan.islands.iter().all(|island| island.turning == 0));
     stepper.step(&mut world);
     assert_eq!(omega(&world, 0), turning);
 }

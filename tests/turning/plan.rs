@@ -44,7 +44,9 @@ fn the_plan_says_that_anchors_turn_and_what_takes_them() {
             let mut world = ring();
             world.set_drag(drag).unwrap();
             let mut stepper = Stepper::new(method).unwrap();
-            let sentence = stepper.plan(&world).sentence().to_owned();
+            let plan = stepper.plan(&world);
+            assert!(plan.islands.len() == 1 && plan.islands[0].turning == 18);
+            let sentence = plan.sentence(&world, &method);
             println!("{sentence}");
             let how = if drag == 0.0 { how } else { "1 island by Taylor series" };
             assert!(sentence.contains(how) && sentence.contains("18 anchors off a centre; rotations"));

@@ -1,12 +1,15 @@
 //! A world that follows another one's inputs, step by step, under a method of its own.
 
 use super::Input;
+use crate::app::plan_text::PlanText;
 use crate::engine::{EngineError, Method, StepReport, Stepper, World};
+use std::sync::Arc;
 
 /// The world and what steps it. Under the simulation's own method it has the simulation's bits.
 pub struct Follower {
     world: World,
     stepper: Stepper,
+    plan_text: PlanText,
     report: StepReport,
 }
 
@@ -16,7 +19,8 @@ impl Follower {
     /// # Errors
     /// If the method cannot be used.
     pub fn new(world: World, method: Method) -> Result<Follower, EngineError> {
-        Ok(Follower { world, stepper: Stepper::new(method)?, report: StepReport::default() })
+        let stepper = Stepper::new(method)?;
+        Ok(Follower { world, stepper, plan_text: PlanText::default(), report: StepReport::default() })
     }
 
     pub fn world(&self) -> &World {
@@ -33,8 +37,8 @@ impl Follower {
     }
 
     /// What the plan decided, in one sentence.
-    pub fn plan(&mut self) -> String {
-        self.stepper.plan(&self.world).sentence().to_string()
+    pub fn plan(&mut self) -> Arc<str> {
+        self.plan_text.of(&mut self.stepper, &self.world)
     }
 
     /// Steps with another method from now on; its rate stays that of the simulation.

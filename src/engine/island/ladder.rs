@@ -47,8 +47,6 @@ const SECOND_ORDER: f64 = 3e-5;
 const KUTTA: f64 = 5e-7;
 const FOURTH_ORDER: f64 = 5e-8;
 const FIFTH_ORDER: f64 = 1e-8;
-/// Where anchors turn there is no contest: accuracies down to which RATTLE costs less than series.
-pub(crate) const TURNING_SECOND_ORDER: f64 = 6e-4;
 /// Radians of the fastest swing that a step of a series takes at most.
 const SERIES_SWING: f64 = 6.0;
 /// What a step may cost at most, in parts of the time that it simulates: a little more than real time, as work is only estimated.
@@ -201,8 +199,7 @@ impl Ladder {
         (plan, system): (&IslandPlan, &mut System),
         (world, time): (&World, f64),
     ) -> (Integrator, Outcome) {
-        let second_order = plan.carrier != Carrier::Cheapest || plan.accuracy >= TURNING_SECOND_ORDER;
-        if second_order && RattleTurning::takes(system) {
+        if plan.second_order() && RattleTurning::takes(system) {
             let outcome = self.rattle_turning.advance(system, time, plan.pace(system.length));
             if plan.steps.is_some() || (outcome.kept && !outcome.stiff && !outcome.failed) {
                 return (Integrator::Rattle, outcome);

@@ -23,7 +23,6 @@ mod work;
 
 mod stepping;
 
-pub(crate) use ladder::TURNING_SECOND_ORDER;
 pub(crate) use nodes::Nodes;
 pub(crate) use ropes::Stretching;
 pub(crate) use stepping::Islands;

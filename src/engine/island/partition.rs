@@ -5,8 +5,10 @@ use crate::engine::world::World;
 
 /// Dynamic bodies that hang together, and their constraints; dense indices, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Group {
+pub struct Group {
+    /// Dense indices of the bodies that can move, ascending.
     pub bodies: Vec<u32>,
+    /// Dense indices of its constraints.
     pub constraints: Vec<u32>,
 }
 
