@@ -2,6 +2,7 @@
 
 use super::error::{EngineError, LARGEST_SPEED, MASS_RANGE, check, check_point};
 use super::id::{Id, find};
+use super::material::Material;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -90,10 +91,15 @@ impl Body {
         if self.motion == Motion::Dynamic { 1.0 / self.mass } else { 0.0 }
     }
 
-    /// 1/I [1/(kg·m²)] with I = ½ m r² of a solid disc; 0 if nothing can turn it.
+    /// Moment of inertia about the centre of a solid disc, ½ m r² [kg·m²].
+    pub fn inertia(&self) -> f64 {
+        0.5 * self.mass * self.radius * self.radius
+    }
+
+    /// 1/I [1/(kg·m²)]; 0 if nothing can turn it.
     pub fn inverse_inertia(&self) -> f64 {
         match (self.motion, self.spin) {
-            (Motion::Dynamic, Some(_)) => 2.0 / (self.mass * self.radius * self.radius),
+            (Motion::Dynamic, Some(_)) => 1.0 / self.inertia(),
             _ => 0.0,
         }
     }
@@ -135,6 +141,8 @@ pub(crate) struct Rotors {
     pub angle: Vec<f64>,
     /// [rad/s]
     pub omega: Vec<f64>,
+    /// About the centre [kg·m²]; without effect while the body is static or kinematic.
+    pub inertia: Vec<f64>,
     /// [1/(kg·m²)], 0 unless dynamic
     pub inverse_inertia: Vec<f64>,
 }
@@ -153,6 +161,17 @@ impl Bodies {
     /// Dense index of a body, if it exists. O(log n).
     pub fn index_of(&self, id: Id) -> Option<usize> {
         find(&self.id, id)
+    }
+
+    /// What body `index` is made of.
+    pub fn material(&self, index: usize) -> Material {
+        Material { restitution: self.restitution[index], friction: self.friction[index] }
+    }
+
+    /// Moment of inertia of body `index` about its centre [kg·m²]; `None` for a particle.
+    pub fn inertia(&self, index: usize) -> Option<f64> {
+        let rotor = self.rotor[index];
+        (rotor != NO_ROTOR).then(|| self.rotors.inertia[rotor as usize])
     }
 
     /// The rotation of body `index`, `None` for a particle.
@@ -196,7 +215,7 @@ impl Bodies {
         self.collides.push(body.collides);
         self.group.push(body.group);
         self.rotor.push(match body.spin {
-            Some(spin) => self.rotors.push(self.id.len() - 1, spin, body.inverse_inertia()),
+            Some(spin) => self.rotors.push(self.id.len() - 1, spin, body),
             None => NO_ROTOR,
         });
     }
@@ -217,11 +236,12 @@ impl Bodies {
 }
 
 impl Rotors {
-    fn push(&mut self, body: usize, spin: Spin, inverse_inertia: f64) -> u32 {
-        self.body.push(body as u32);
+    fn push(&mut self, index: usize, spin: Spin, body: &Body) -> u32 {
+        self.body.push(index as u32);
         self.angle.push(spin.angle);
         self.omega.push(spin.omega);
-        self.inverse_inertia.push(inverse_inertia);
+        self.inertia.push(body.inertia());
+        self.inverse_inertia.push(body.inverse_inertia());
         (self.body.len() - 1) as u32
     }
 }

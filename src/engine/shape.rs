@@ -1,6 +1,7 @@
 //! Shapes of the immovable surroundings: line segments and axis-aligned boxes.
 
 use super::error::{EngineError, check, check_point};
+use super::material::Material;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +31,11 @@ impl Default for Wall {
 }
 
 impl Wall {
+    /// What it is made of.
+    pub fn material(&self) -> Material {
+        Material { restitution: self.restitution, friction: self.friction }
+    }
+
     /// A segment wall with the default material.
     pub fn segment(from: DVec2, to: DVec2) -> Wall {
         Wall { shape: Shape::Segment { from, to }, ..Wall::default() }

@@ -62,8 +62,7 @@ impl Measures {
             self.potential -= mass * world.gravity().dot(position);
             self.momentum += mass * velocity;
             self.angular_momentum += mass * position.perp_dot(velocity);
-            if let Some(spin) = bodies.spin(i) {
-                let inertia = 0.5 * mass * bodies.radius[i] * bodies.radius[i];
+            if let (Some(spin), Some(inertia)) = (bodies.spin(i), bodies.inertia(i)) {
                 self.kinetic += 0.5 * inertia * spin.omega * spin.omega;
                 self.angular_momentum += inertia * spin.omega;
             }

@@ -6,7 +6,6 @@
 //! the list was built.
 
 use super::grid::Grid;
-use super::{may_touch, may_touch_walls};
 use crate::engine::plan::Plan;
 use crate::engine::shape::Shape;
 use crate::engine::state::State;
@@ -98,7 +97,7 @@ impl BroadPhase {
             let rank = values.len().saturating_sub(1 + few(values.len()));
             if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(rank, f64::total_cmp).1 }
         };
-        let colliding = || (0..n).filter(|i| world.bodies.collides[*i] && radius[*i] > 0.0);
+        let colliding = || (0..n).filter(|i| world.bodies.is_solid(*i));
         self.sorted.clear();
         self.sorted.extend(colliding().map(|i| radius[i]));
         let usual_radius = usual(&mut self.sorted).max(1e-9);
@@ -130,7 +129,9 @@ impl BroadPhase {
         let mut add = |a: u32, b: u32| {
             let (i, j) = (a as usize, b as usize);
             let near = radius[i] + radius[j] + self.reach(radius[i].min(radius[j]));
-            if (state.position[i] - state.position[j]).length_squared() < near * near && may_touch(world, plan, a, b) {
+            if (state.position[i] - state.position[j]).length_squared() < near * near
+                && world.bodies.may_touch(&plan.joined, a, b)
+            {
                 pairs.push((a.min(b), a.max(b)));
             }
         };
@@ -151,7 +152,7 @@ impl BroadPhase {
             let mut add = |body: u32| {
                 let radius = world.bodies.radius[body as usize];
                 let distance = wall.shape.distance(state.position[body as usize]).0;
-                if distance < radius * (1.0 + MARGIN) + self.travel && may_touch_walls(world, body) {
+                if distance < radius * (1.0 + MARGIN) + self.travel && world.bodies.may_touch_walls(body as usize) {
                     walls.push((body, index as u32));
                 }
             };

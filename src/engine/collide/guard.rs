@@ -8,7 +8,6 @@
 //! A ball round each centre that is clear of all walls is kept for as long as the centre stays in it, so a pile costs two distances a body.
 //! A way inside of a clear ball would be left as it is by the whole judgement too: the result never depends on when a ball was measured.
 
-use super::may_touch_walls;
 use super::sweep::{CORE, disc_hits_wall};
 use crate::engine::shape::{Shape, Wall};
 use crate::engine::state::State;
@@ -69,7 +68,7 @@ impl WallGuard {
         self.clear_at[i] = from;
         self.clear[i] = f64::INFINITY;
         // A way that is no number belongs to the check for divergence.
-        if !may_touch_walls(world, i as u32) || !to.is_finite() {
+        if !world.bodies.may_touch_walls(i) || !to.is_finite() {
             return;
         }
         let core = CORE * world.bodies.radius[i];
@@ -81,9 +80,9 @@ impl WallGuard {
         }
         let mut velocity = state.velocity[i];
         let bounce = |wall: &Wall, normal: DVec2| {
-            let own = world.bodies.restitution[i].max(wall.restitution);
+            let surface = world.bodies.material(i).mixed(wall.material(), &world.tuning);
             let into = velocity.dot(normal).min(0.0);
-            velocity -= (1.0 + world.tuning.restitution.unwrap_or(own)) * into * normal;
+            velocity -= (1.0 + surface.restitution) * into * normal;
         };
         if let Some(reached) = along_walls(&world.walls, from, to - from, core, bounce) {
             let passes = world.walls.iter().any(|wall| passes(&wall.shape, from, reached));

@@ -4,9 +4,8 @@
 //! is judged where it first meets along its path, so that nothing is jumped over: the gap is then the path's length along
 //! the normal found there.
 
-use super::may_touch;
+use super::BroadPhase;
 use super::sweep::{disc_hits_disc, disc_hits_wall};
-use super::{BroadPhase, may_touch_walls};
 use crate::engine::collide::broad::MARGIN;
 use crate::engine::plan::Plan;
 use crate::engine::state::State;
@@ -68,13 +67,13 @@ impl Narrow<'_> {
         let mut looked_at = self.world.walls.len();
         let mut try_with = |other: u32| {
             looked_at += 1;
-            if may_touch(self.world, plan, fast, other) {
+            if self.world.bodies.may_touch(&plan.joined, fast, other) {
                 contacts.extend(self.discs(fast.min(other), fast.max(other)));
             }
         };
         broad.near(from.min(from + path), from.max(from + path), reach, &mut try_with);
         broad.fast.iter().copied().filter(|other| *other > fast).for_each(try_with);
-        if may_touch_walls(self.world, fast) {
+        if self.world.bodies.may_touch_walls(fast as usize) {
             let walls = 0..self.world.walls.len() as u32;
             contacts.extend(walls.clone().filter_map(|wall| self.wall(fast, wall, walls.clone())));
         }

@@ -8,7 +8,7 @@
 //! Cost: O(n log n) a step, and O(n) for each body that reaches much farther than the others.
 
 use crate::engine::body::Motion;
-use crate::engine::collide::{Grid, may_touch};
+use crate::engine::collide::Grid;
 use crate::engine::plan::Plan;
 use crate::engine::world::World;
 
@@ -105,7 +105,7 @@ impl Clusters {
             let (i, j) = (a as usize, b as usize);
             let far = reach[i] + reach[j];
             // Written so that a NaN is close.
-            if (position[i] - position[j]).length_squared() > far * far || !may_touch(world, plan, a, b) {
+            if (position[i] - position[j]).length_squared() > far * far || !world.bodies.may_touch(&plan.joined, a, b) {
                 return;
             }
             match (role[i], role[j]) {
@@ -170,7 +170,8 @@ impl Clusters {
                     Role::Static => obstacles.binary_search(&(cluster, other)).is_ok(),
                     Role::Other => false,
                 };
-                own || (position[i] - position[j]).length_squared() > far * far || !may_touch(world, plan, *body, other)
+                own || (position[i] - position[j]).length_squared() > far * far
+                    || !world.bodies.may_touch(&plan.joined, *body, other)
             })
         })
     }
@@ -187,7 +188,7 @@ impl Clusters {
         let held = world.grip.as_ref().and_then(|grip| Some((bodies.index_of(grip.body)?, grip)));
         self.role.clear();
         self.role.extend((0..bodies.len()).map(|i| match bodies.motion[i] {
-            _ if !bodies.collides[i] || bodies.radius[i] == 0.0 => Role::Nothing,
+            _ if !bodies.is_solid(i) => Role::Nothing,
             Motion::Static if held.is_none_or(|held| held.0 != i) => Role::Static,
             _ => Role::Other,
         }));

@@ -5,6 +5,7 @@ use super::path::{Drag, Path};
 use super::root::Rounding;
 use super::touch::{AT_END, Masses, Touch, side_of};
 use crate::engine::body::NO_ROTOR;
+use crate::engine::filter::Side;
 use crate::engine::world::{Touching, World};
 
 /// Surfaces nearer than this part of the smaller radius touch, and a few ulps of the coordinates more.
@@ -52,7 +53,7 @@ impl Surfaces {
         group.clear();
         group.extend(of().map(|i| all.group[i]));
         solid.clear();
-        solid.extend(of().map(|i| all.collides[i] && all.radius[i] > 0.0));
+        solid.extend(of().map(|i| all.is_solid(i)));
     }
 
     pub fn len(&self) -> usize {
@@ -69,12 +70,12 @@ impl Surfaces {
         self.masses.inverse_mass[place] > 0.0
     }
 
+    fn side(&self, place: usize) -> Side {
+        Side { solid: self.solid[place], group: self.group[place], movable: self.is_dynamic(place) }
+    }
+
     fn may_touch(&self, i: usize, j: usize) -> bool {
-        i != j
-            && self.solid[i]
-            && self.solid[j]
-            && (self.group[i] == 0 || self.group[i] != self.group[j])
-            && (self.is_dynamic(i) || self.is_dynamic(j))
+        i != j && self.side(i).meets(self.side(j))
     }
 
     /// A gap that is nothing between two bodies [m]: a few ulps of what it is computed from.

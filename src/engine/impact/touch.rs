@@ -3,6 +3,7 @@
 //! Ċ_n = n·(v_a − v_b); Ċ_t = t·(v_a − v_b) − r_a ω_a − r_b ω_b with t the normal turned by +90°, as in `solve/contact_rows.rs`.
 
 use super::path::Path;
+use crate::engine::material::Material;
 use crate::engine::shape::Shape;
 use crate::engine::world::{Touching, World};
 use glam::DVec2;
@@ -53,12 +54,11 @@ impl Touch {
         (normal, distance): (DVec2, f64),
     ) -> Touch {
         let (bodies, i) = (&world.bodies, dense as usize);
-        let (radius_b, friction, restitution) = match with {
-            Touching::Body(j) => {
-                (bodies.radius[j as usize], bodies.friction[j as usize], bodies.restitution[j as usize])
-            }
-            Touching::Wall(wall) => (0.0, world.walls[wall as usize].friction, world.walls[wall as usize].restitution),
+        let (radius_b, other) = match with {
+            Touching::Body(j) => (bodies.radius[j as usize], bodies.material(j as usize)),
+            Touching::Wall(wall) => (0.0, world.walls[wall as usize].material()),
         };
+        let Material { restitution, friction } = bodies.material(i).mixed(other, &world.tuning);
         let arm = |place: usize, radius: f64| if masses.inverse_inertia[place] > 0.0 { radius } else { 0.0 };
         let (arm_a, arm_b) = (arm(a, bodies.radius[i]), arm(b, radius_b));
         let k = masses.inverse_mass[a] + masses.inverse_mass[b];
@@ -71,8 +71,8 @@ impl Touch {
             distance,
             arm_a,
             arm_b,
-            friction: world.tuning.friction.unwrap_or_else(|| (bodies.friction[i] * friction).sqrt()),
-            restitution: world.tuning.restitution.unwrap_or_else(|| bodies.restitution[i].max(restitution)),
+            friction,
+            restitution,
             normal_mass: 1.0 / k,
             tangent_mass: 1.0 / (k + turning),
             side: None,

@@ -6,8 +6,8 @@
 //! walls, which a body that is pulled hard could pass meanwhile: those are looked at again when the step is known.
 
 use super::System;
+use crate::engine::collide::Grid;
 use crate::engine::collide::sweep::disc_hits_wall;
-use crate::engine::collide::{Grid, may_touch, may_touch_walls};
 use crate::engine::plan::{IslandPlan, Plan};
 use crate::engine::world::World;
 use glam::DVec2;
@@ -28,7 +28,7 @@ pub(super) fn came_to_wall(world: &World, system: &System) -> bool {
         let (from, radius) = (world.bodies.position[body as usize], world.bodies.radius[body as usize]);
         let path = DVec2::new(nodes.x[i], nodes.y[i]) - from;
         let (low, high) = (from.min(from + path) - DVec2::splat(radius), from.max(from + path) + DVec2::splat(radius));
-        may_touch_walls(world, body)
+        world.bodies.may_touch_walls(body as usize)
             && world.walls.iter().any(|wall| {
                 let (min, max) = wall.shape.bounds();
                 let apart = min.cmpgt(high).any() || max.cmplt(low).any();
@@ -74,7 +74,7 @@ impl Surroundings {
             let room = ROOM * bodies.radius[i].min(bodies.radius[j]) + way + drop;
             let reach = bodies.radius[i] + bodies.radius[j] + room;
             let apart = (bodies.position[i] - bodies.position[j]).length_squared();
-            if apart < reach * reach && may_touch(world, plan, a, b) {
+            if apart < reach * reach && world.bodies.may_touch(&plan.joined, a, b) {
                 [i, j].into_iter().filter(|i| island[*i] != NONE).for_each(|i| near[island[i] as usize] = true);
             }
         };
@@ -84,7 +84,7 @@ impl Surroundings {
             let others = (0..bodies.len() as u32).filter(|b| b != one && reach[*b as usize] > 0.0 && !before(b));
             others.for_each(|b| look(*one, b));
         }
-        for body in (0..bodies.len()).filter(|i| island[*i] != NONE && may_touch_walls(world, *i as u32)) {
+        for body in (0..bodies.len()).filter(|i| island[*i] != NONE && bodies.may_touch_walls(*i)) {
             let room = reach[body] + ROOM * bodies.radius[body] + drop;
             let (low, high) = (bodies.position[body] - DVec2::splat(room), bodies.position[body] + DVec2::splat(room));
             let meets = world.walls.iter().any(|wall| {
@@ -105,10 +105,10 @@ impl Surroundings {
             island.group.bodies.iter().for_each(|body| self.island[*body as usize] = index as u32);
         }
         self.reach.clear();
-        self.reach.extend((0..bodies.len()).map(|i| {
-            let collides = bodies.collides[i] && bodies.radius[i] > 0.0;
-            if collides { bodies.radius[i] + time * bodies.velocity[i].length() } else { 0.0 }
-        }));
+        self.reach.extend(
+            (0..bodies.len())
+                .map(|i| if bodies.is_solid(i) { bodies.radius[i] + time * bodies.velocity[i].length() } else { 0.0 }),
+        );
         self.sorted.clear();
         self.sorted.extend(self.reach.iter().copied().filter(|reach| *reach > 0.0));
         let middle = self.sorted.len() / 2;

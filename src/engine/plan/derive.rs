@@ -72,7 +72,7 @@ impl Plan {
 
     /// Whether a body can touch anything.
     fn touches(&self, world: &World, body: u32) -> bool {
-        self.contacts && world.bodies.collides[body as usize] && world.bodies.radius[body as usize] > 0.0
+        self.contacts && world.bodies.is_solid(body as usize)
     }
 
     /// Whether an island moves smoothly as long as nothing touches it. Free bodies that can touch are a pile, a stack or balls in
@@ -133,19 +133,18 @@ impl Plan {
         self.dashpots = self.springs.iter().any(|joint| joint.form.damping > 0.0);
     }
 
-    /// Factor by which an anchor of a disc is easier to move than its centre: 1 + m |at|²/I with I = ½ m r², and at least that of an anchor at the rim.
+    /// Factor by which an anchor of a disc is easier to move than its centre: 1 + m |at|²/I, and at least that of an anchor at the rim.
     fn leverage(&self, world: &World, body: usize, at: DVec2) -> f64 {
-        if body < world.bodies.len() && world.bodies.spin(body).is_some() {
-            let arm = at.length() / world.bodies.radius[body];
-            1.0 + 2.0 * (arm * arm).max(1.0)
-        } else {
-            1.0
-        }
+        let inertia = if body < world.bodies.len() { world.bodies.inertia(body) } else { None };
+        inertia.map_or(1.0, |inertia| {
+            let arm = at.length().max(world.bodies.radius[body]);
+            1.0 + world.bodies.mass[body] * arm * arm / inertia
+        })
     }
 
     pub(super) fn find_contacts(&mut self, world: &World) {
         let bodies = &world.bodies;
-        let can_touch = |i: &usize| bodies.collides[*i] && bodies.radius[*i] > 0.0;
+        let can_touch = |i: &usize| bodies.is_solid(*i);
         let touching = (0..bodies.len()).filter(can_touch).count();
         let movable = (0..bodies.len()).filter(can_touch).any(|i| bodies.inverse_mass[i] > 0.0);
         self.contacts = movable && (touching >= 2 || !world.walls.is_empty());

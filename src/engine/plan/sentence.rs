@@ -79,7 +79,7 @@ impl Plan {
         let moves_otherwise = |body: u32| {
             let i = body as usize;
             let others = few.bodies.binary_search(&body).is_err() && world.bodies.motion[i] != Motion::Static;
-            others && world.bodies.collides[i] && world.bodies.radius[i] > 0.0
+            others && world.bodies.is_solid(i)
         };
         if free > MOST_TOGETHER {
             let _ = write!(sentence, ", heaps of more than {MOST_TOGETHER} through the substeps");

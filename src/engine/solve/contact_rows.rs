@@ -4,6 +4,7 @@
 //! centre, so only the tangent has arms: r_a × t = −radius_a, r_b × t = radius_b.
 
 use crate::engine::collide::sweep::CORE;
+use crate::engine::material::Material;
 use crate::engine::state::State;
 use crate::engine::world::{Contact, Touching, World};
 use glam::DVec2;
@@ -41,16 +42,11 @@ impl ContactRow {
     pub fn of<const SPIN: bool>(contact: &Contact, world: &World, state: &State) -> ContactRow {
         let bodies = &world.bodies;
         let a = contact.a as usize;
-        let (b, radius_b, friction, restitution) = match contact.b {
-            Touching::Body(b) => {
-                let i = b as usize;
-                (b, bodies.radius[i], bodies.friction[i], bodies.restitution[i])
-            }
-            Touching::Wall(wall) => {
-                let wall = &world.walls[wall as usize];
-                (state.len() as u32, 0.0, wall.friction, wall.restitution)
-            }
+        let (b, radius_b, other) = match contact.b {
+            Touching::Body(b) => (b, bodies.radius[b as usize], bodies.material(b as usize)),
+            Touching::Wall(wall) => (state.len() as u32, 0.0, world.walls[wall as usize].material()),
         };
+        let Material { restitution, friction } = bodies.material(a).mixed(other, &world.tuning);
         let k = state.inverse_mass[a] + state.inverse_mass[b as usize];
         let mut tangent_k = k;
         if SPIN {
@@ -66,8 +62,8 @@ impl ContactRow {
             tangent_mass: 1.0 / tangent_k,
             held: contact.normal_force > 0.0,
             wanted_speed: 0.0,
-            friction: world.tuning.friction.unwrap_or_else(|| (bodies.friction[a] * friction).sqrt()),
-            restitution: world.tuning.restitution.unwrap_or_else(|| bodies.restitution[a].max(restitution)),
+            friction,
+            restitution,
             radius_a: bodies.radius[a],
             radius_b,
             normal_impulse: 0.0,
