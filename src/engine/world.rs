@@ -339,12 +339,14 @@ impl World {
         Ok(())
     }
 
-    /// Removes bodies with every constraint, contact and grip on them. Unknown ids are ignored. O(size of the world).
+    /// Removes bodies with every constraint, contact and grip on them. Unknown ids are ignored. O((n + m) log m) for m of n things.
     pub fn remove_bodies(&mut self, ids: &[Id]) {
+        let removed = sorted(ids);
+        let is_removed = |id: &Id| removed.binary_search(id).is_ok();
         let mut map = vec![WORLD; self.bodies.len()];
         let mut kept = Vec::with_capacity(self.bodies.len());
         for (index, (id, body)) in self.bodies.iter().enumerate() {
-            if !ids.contains(&id) {
+            if !is_removed(&id) {
                 map[index] = kept.len() as u32;
                 kept.push((id, body));
             }
@@ -358,7 +360,7 @@ impl World {
             *end = map[*end as usize];
         }
         self.contacts.retain_mut(|contact| renumber(contact, &map));
-        if self.grip.is_some_and(|grip| ids.contains(&grip.body)) {
+        if self.grip.is_some_and(|grip| is_removed(&grip.body)) {
             self.grip = None;
         }
         self.revision = Revision::next();
@@ -394,7 +396,8 @@ impl World {
 
     /// Removes constraints. Unknown ids are ignored.
     pub fn remove_constraints(&mut self, ids: &[Id]) {
-        let keep: Vec<bool> = self.constraints.id.iter().map(|id| !ids.contains(id)).collect();
+        let removed = sorted(ids);
+        let keep: Vec<bool> = self.constraints.id.iter().map(|id| removed.binary_search(id).is_err()).collect();
         self.keep_constraints(&keep);
         self.revision = Revision::next();
     }
@@ -419,7 +422,8 @@ impl World {
 
     /// Removes walls. Unknown ids are ignored.
     pub fn remove_walls(&mut self, ids: &[Id]) {
-        let keep: Vec<bool> = self.wall_ids.iter().map(|id| !ids.contains(id)).collect();
+        let removed = sorted(ids);
+        let keep: Vec<bool> = self.wall_ids.iter().map(|id| removed.binary_search(id).is_err()).collect();
         retain(&mut self.walls, &keep);
         retain(&mut self.wall_ids, &keep);
         self.contacts.retain(|contact| matches!(contact.b, Touching::Body(_)));
@@ -508,6 +512,13 @@ pub(crate) fn rotate(v: DVec2, angle: f64) -> DVec2 {
     DVec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
 }
 
+/// In ascending order, to be searched in.
+fn sorted(ids: &[Id]) -> Vec<Id> {
+    let mut ids = ids.to_vec();
+    ids.sort_unstable();
+    ids
+}
+
 fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
     let mut kept = keep.iter();
     items.retain(|_| *kept.next().expect("one flag an item"));
@@ -542,5 +553,47 @@ impl Fnv {
     fn add_vector(&mut self, v: DVec2) {
         self.add(v.x);
         self.add(v.y);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::{Kind, Shape};
+
+    #[test]
+    fn what_is_removed_in_any_order_takes_what_hangs_on_it_and_nothing_else() {
+        let mut world = World::new();
+        let ids: Vec<Id> = (0..100)
+            .map(|i| world.add_body(&Body { position: DVec2::new(f64::from(i), 0.0), ..Body::default() }).unwrap())
+            .collect();
+        let rods: Vec<Id> = ids
+            .windows(2)
+            .map(|pair| {
+                world.add_constraint(&Constraint::between(Kind::Rod { length: 1.0 }, pair[0], pair[1])).unwrap()
+            })
+            .collect();
+        let shape = |x: f64| Shape::Segment { from: DVec2::new(x, -1.0), to: DVec2::new(x, -2.0) };
+        let walls: Vec<Id> =
+            (0..10).map(|i| world.add_wall(&Wall { shape: shape(f64::from(i)), ..Wall::default() }).unwrap()).collect();
+        // Of the highest first, some twice, one that is none.
+        let gone: Vec<Id> = ids.iter().rev().step_by(3).copied().chain([ids[99], rods[0]]).collect();
+        world.remove_bodies(&gone);
+        let left: Vec<f64> = world.bodies().position.iter().map(|p| p.x).collect();
+        let expected: Vec<f64> = (0..100).filter(|i| (99 - i) % 3 != 0).map(f64::from).collect();
+        assert_eq!(left, expected);
+        // One rod of three lies between two that stay.
+        assert_eq!(world.constraints().len(), 33);
+        for i in 0..world.constraints().len() {
+            let (a, b) = world.ends(i);
+            assert_eq!(b.x - a.x, 1.0);
+        }
+        let kept = world.constraints().id.clone();
+        world.remove_constraints(&[kept[30], kept[2], kept[2]]);
+        assert_eq!(world.constraints().len(), 31);
+        assert!(!world.constraints().id.contains(&kept[2]) && world.constraints().id.contains(&kept[3]));
+        world.remove_walls(&[walls[9], walls[0]]);
+        assert_eq!(world.walls().len(), 8);
+        assert!(world.walls().iter().all(|wall| wall.shape != shape(0.0) && wall.shape != shape(9.0)));
     }
 }
