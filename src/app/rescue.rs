@@ -1,7 +1,7 @@
 //! Unsaved work, kept when the window ends in another way than its user asked for.
 
 use super::Frame;
-use crate::file::write_new;
+use crate::file::{WriteError, write_new};
 use crate::scene::{self, Setup};
 use crate::text::named;
 use std::ffi::OsString;
@@ -10,25 +10,44 @@ use std::path::{Path, PathBuf};
 /// A folder holds so many rescued states of one scene at most.
 const MOST: u32 = 1000;
 
+/// Why a folder does not take unsaved work.
+#[derive(Debug, thiserror::Error)]
+pub enum RescueError {
+    /// It cannot be written to.
+    #[error("cannot write into {folder}: {source}")]
+    Write {
+        /// As a user would type it.
+        folder: String,
+        /// Why not.
+        source: WriteError,
+    },
+    /// As many as there may be are there already.
+    #[error("cannot write into {folder}: {MOST} rescued states of this scene are there already")]
+    Full {
+        /// As a user would type it.
+        folder: String,
+    },
+}
+
 /// Writes the scene as it stands to a new file, if it was edited since it was last written: beside its own file, or
 /// where there is none or that folder takes none in the folder for the state of programs, or else in that for temporary
 /// files. The path, or `None` if there is nothing to keep.
 ///
 /// # Errors
-/// In words, if no folder takes it.
-pub fn rescue(frame: &Frame) -> Option<Result<PathBuf, String>> {
+/// If no folder takes it: why the last one does not.
+pub fn rescue(frame: &Frame) -> Option<Result<PathBuf, RescueError>> {
     let start = frame.unsaved.as_deref()?;
     let setup = Setup { world: frame.world.clone(), method: frame.method, ..start.clone() };
     let text = scene::to_ron(&scene::capture(&setup));
     let stem = start.file.as_deref().and_then(Path::file_stem).map_or_else(|| stem(&start.name), OsString::from);
-    let mut why = String::new();
+    let mut last = None;
     for folder in folders(start.file.as_deref()) {
         match write(&folder, &stem, text.as_bytes()) {
             Ok(path) => return Some(Ok(path)),
-            Err(error) => why = format!("cannot write into {}: {error}", named(&folder)),
+            Err(error) => last = Some(error),
         }
     }
-    Some(Err(why))
+    last.map(Err)
 }
 
 /// The last part of a shipped scene's name.
@@ -52,7 +71,7 @@ fn folders(file: Option<&Path>) -> Vec<PathBuf> {
 }
 
 /// Writes to the first name that nothing has: "tower.rescued.ron", "tower.rescued-2.ron".
-fn write(folder: &Path, stem: &std::ffi::OsStr, bytes: &[u8]) -> Result<PathBuf, String> {
+fn write(folder: &Path, stem: &std::ffi::OsStr, bytes: &[u8]) -> Result<PathBuf, RescueError> {
     // Where it is there already, or cannot be made, writing says so.
     let _ = std::fs::create_dir_all(folder);
     for number in 1..=MOST {
@@ -62,8 +81,8 @@ fn write(folder: &Path, stem: &std::ffi::OsStr, bytes: &[u8]) -> Result<PathBuf,
         match write_new(&path, bytes) {
             Ok(()) => return Ok(path),
             Err(error) if error.kind == std::io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(error.to_string()),
+            Err(error) => return Err(RescueError::Write { folder: named(folder), source: error }),
         }
     }
-    Err(format!("{MOST} rescued states of this scene are there already"))
+    Err(RescueError::Full { folder: named(folder) })
 }

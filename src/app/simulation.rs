@@ -4,6 +4,7 @@ use super::blank::{self, blank};
 use super::command::{Command, Edit};
 use super::companion::{Beginning, Extent, Input, Links, Report, Standing, Waker};
 use super::edit;
+use super::error::CommandError;
 use super::frame::{Frame, SLOW, SceneInfo, Speed};
 use super::history::{History, State};
 use super::laboratory::{Job, LabOrder, Laboratory};
@@ -115,7 +116,7 @@ impl Simulation {
             start,
         };
         if let Err(error) = simulation.follow_truth() {
-            simulation.fault.get_or_insert(error);
+            simulation.fault.get_or_insert_with(|| error.to_string());
         }
         simulation
     }
@@ -230,13 +231,12 @@ impl Simulation {
     pub(super) fn apply(&mut self, command: Command) {
         self.guard(|simulation| {
             if let Err(fault) = simulation.try_apply(command) {
-                simulation.fault = Some(fault);
+                simulation.fault = Some(fault.to_string());
             }
         });
     }
 
-    fn try_apply(&mut self, command: Command) -> Result<(), String> {
-        let text = |error: EngineError| error.to_string();
+    fn try_apply(&mut self, command: Command) -> Result<(), CommandError> {
         // Any other command settles a setting that was being changed.
         let setting = self.setting.take();
         match command {
@@ -256,7 +256,7 @@ impl Simulation {
                 self.open(setup, name);
             }
             Command::Speed(speed) if speed.is_finite() => self.speed = speed.clamp(SPEED_RANGE[0], SPEED_RANGE[1]),
-            Command::Speed(speed) => return Err(format!("speed is {speed}, but must be between 0.01 and 10")),
+            Command::Speed(speed) => return Err(CommandError::Speed(speed)),
             Command::Slow(slow) => self.slow = slow,
             Command::Open(name) => self.open_scene(name.as_ref())?,
             Command::OpenFile(path) => self.open_scene(path.as_os_str())?,
@@ -265,22 +265,22 @@ impl Simulation {
             Command::Method(method) => {
                 let name = setting::method(self.stepper.method(), &method);
                 let rate = (self.stepper.method().hz != method.hz).then_some(Input::Rate(method.hz));
-                self.set(name, setting, |now| now.stepper.set_method(method)).map_err(text)?;
+                self.set(name, setting, |now| now.stepper.set_method(method))?;
                 rate.iter().for_each(|rate| self.tell(rate));
             }
             Command::Gravity(gravity) => {
                 let name = (self.world.gravity() != gravity).then_some("gravity");
-                self.set(name, setting, |now| now.world.set_gravity(gravity)).map_err(text)?;
+                self.set(name, setting, |now| now.world.set_gravity(gravity))?;
                 name.iter().for_each(|_| self.tell(&Input::Gravity(gravity)));
             }
             Command::Drag(drag) => {
                 let name = (self.world.drag() != drag).then_some("air drag");
-                self.set(name, setting, |now| now.world.set_drag(drag)).map_err(text)?;
+                self.set(name, setting, |now| now.world.set_drag(drag))?;
                 name.iter().for_each(|_| self.tell(&Input::Drag(drag)));
             }
             Command::Tuning(tuning) => {
                 let name = setting::tuning(&self.world.tuning(), &tuning);
-                self.set(name, setting, |now| now.world.set_tuning(tuning)).map_err(text)?;
+                self.set(name, setting, |now| now.world.set_tuning(tuning))?;
                 name.iter().for_each(|_| self.tell(&Input::Tuning(tuning)));
             }
             Command::Truth(on) => {
@@ -289,21 +289,21 @@ impl Simulation {
             }
             Command::Rival(method) => {
                 if let Some(method) = &method {
-                    method.validate().map_err(text)?;
+                    method.validate()?;
                 }
                 let beginning = self.beginning();
-                self.links.set_rival(method, beginning, &self.waker).map_err(|error| no_thread("rival", &error))?;
+                self.links.set_rival(method, beginning, &self.waker).map_err(|error| no_thread("rival", error))?;
             }
             Command::Lab(order) => self.order(order)?,
-            Command::Grab { body, at } => self.grab(body, at).map_err(text)?,
+            Command::Grab { body, at } => self.grab(body, at)?,
             Command::MoveGrip(target) => {
                 if let Some(grip) = self.world.grip().copied() {
-                    self.world.set_grip(Some(Grip { target, ..grip })).map_err(text)?;
+                    self.world.set_grip(Some(Grip { target, ..grip }))?;
                     self.tell(&Input::Move(target));
                 }
             }
             Command::Release => {
-                self.world.set_grip(None).map_err(text)?;
+                self.world.set_grip(None)?;
                 self.tell(&Input::Release);
             }
             Command::Edit(edit) => {
@@ -333,25 +333,25 @@ impl Simulation {
         Ok(())
     }
 
-    fn order(&mut self, order: LabOrder) -> Result<(), String> {
+    fn order(&mut self, order: LabOrder) -> Result<(), CommandError> {
         match order {
             LabOrder::Start => {
                 let mut touched = (!self.untouched).then(|| self.world.clone());
                 // A hand is no part of a scene.
                 touched.iter_mut().for_each(|world| world.set_grip(None).expect("letting go is always possible"));
                 let job = Job { setup: self.start.clone(), touched, method: *self.stepper.method() };
-                self.laboratory.start(job, &self.waker).map_err(|error| no_thread("lab", &error))
+                self.laboratory.start(job, &self.waker).map_err(|error| no_thread("lab", error))
             }
             LabOrder::Stop => {
                 self.laboratory.stop();
                 Ok(())
             }
-            LabOrder::Resume => self.laboratory.resume(&self.waker).map_err(|error| no_thread("lab", &error)),
+            LabOrder::Resume => self.laboratory.resume(&self.waker).map_err(|error| no_thread("lab", error)),
             LabOrder::Export(path) => {
                 if self.start.file.as_ref().is_some_and(|scene| is_same(scene, &path)) {
-                    return Err(format!("{} is the open scene. Choose another name.", named(&path)));
+                    return Err(CommandError::OpenScene(named(&path)));
                 }
-                self.laboratory.export(&path).map_err(|error| error.to_string())
+                Ok(self.laboratory.export(&path)?)
             }
         }
     }
@@ -366,14 +366,14 @@ impl Simulation {
     }
 
     /// Lets the truth follow as far as it is wanted: what is known costs nothing.
-    fn follow_truth(&mut self) -> Result<(), String> {
+    fn follow_truth(&mut self) -> Result<(), CommandError> {
         let extent = match (self.ghost, self.known) {
             (true, _) => Some(Extent::Computed),
             (false, true) => Some(Extent::Known),
             (false, false) => None,
         };
         let beginning = self.beginning();
-        self.links.set_truth(extent, beginning, &self.waker).map_err(|error| no_thread("truth", &error))
+        self.links.set_truth(extent, beginning, &self.waker).map_err(|error| no_thread("truth", error))
     }
 
     /// Where a companion would begin to follow now.
@@ -392,8 +392,8 @@ impl Simulation {
         State { world, method, start: self.start.clone(), edited: self.edited }
     }
 
-    fn open_scene(&mut self, name_or_path: &OsStr) -> Result<(), String> {
-        let setup = scene::open(name_or_path).map_err(|error| error.to_string())?;
+    fn open_scene(&mut self, name_or_path: &OsStr) -> Result<(), CommandError> {
+        let setup = scene::open(name_or_path)?;
         let name = format!("Open {}", setup.name);
         self.open(setup, name);
         Ok(())
@@ -414,13 +414,13 @@ impl Simulation {
     }
 
     /// Writes the scene as it stands to a file. A new scene is called after its first one.
-    fn save(&mut self, path: &Path) -> Result<(), String> {
+    fn save(&mut self, path: &Path) -> Result<(), CommandError> {
         let mut setup = Setup { world: self.world.clone(), method: *self.stepper.method(), ..(*self.start).clone() };
         let is_new = setup.name == blank::NAME;
         if let Some(stem) = path.file_stem().filter(|_| is_new) {
             (setup.title, setup.about) = (stem.to_string_lossy().into_owned(), String::new());
         }
-        scene::save(path, &scene::capture(&setup)).map_err(|error| error.to_string())?;
+        scene::save(path, &scene::capture(&setup))?;
         if is_new {
             let (name, file) = (path.to_string_lossy().into_owned(), Some(path.to_owned()));
             let (title, about) = (setup.title, setup.about);
@@ -455,7 +455,7 @@ impl Simulation {
         Ok(())
     }
 
-    fn edit(&mut self, edit: &Edit) -> Result<(), String> {
+    fn edit(&mut self, edit: &Edit) -> Result<(), CommandError> {
         let before = self.state();
         match edit::apply(&mut self.world, edit) {
             Ok(touched) if touched.is_empty() => {}
@@ -468,7 +468,7 @@ impl Simulation {
             }
             Err(error) => {
                 self.world = before.world;
-                return Err(error.to_string());
+                return Err(error.into());
             }
         }
         Ok(())
@@ -514,7 +514,7 @@ impl Simulation {
             self.links.begin(&beginning);
         }
         if let Err(error) = self.follow_truth() {
-            self.fault.get_or_insert(error);
+            self.fault.get_or_insert_with(|| error.to_string());
         }
     }
 
@@ -578,8 +578,8 @@ pub struct Beside {
     pub rival: Option<Method>,
 }
 
-fn no_thread(what: &str, error: &std::io::Error) -> String {
-    format!("the {what} cannot be started: {error}. Close other programs and try again.")
+fn no_thread(what: &'static str, source: std::io::Error) -> CommandError {
+    CommandError::NoThread { what, source }
 }
 
 /// A stepper with a clock; if the method cannot be used, the default one and why.

@@ -3,7 +3,7 @@
 use super::screen::{Screen, View};
 use super::timing::Timing;
 use super::{interpolation, quietly};
-use crate::app::{Camera, Command, Frame, Session, rescue};
+use crate::app::{Camera, Command, Frame, RescueError, Session, rescue};
 use crate::engine::DVec2;
 use crate::scene::{SceneError, Setup};
 use crate::text::{escaped, named};
@@ -52,7 +52,7 @@ pub struct Desktop {
     sandbox: Option<Sandbox>,
     failure: Option<anyhow::Error>,
     /// Where unsaved work went when something failed.
-    rescued: Option<Result<PathBuf, String>>,
+    rescued: Option<Result<PathBuf, RescueError>>,
     timing: Timing,
 }
 

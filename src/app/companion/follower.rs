@@ -1,6 +1,7 @@
 //! A world that follows another one's inputs, step by step, under a method of its own.
 
 use super::Input;
+use crate::app::error::Lost;
 use crate::app::plan_text::PlanText;
 use crate::engine::{EngineError, Method, StepReport, Stepper, World};
 use std::sync::Arc;
@@ -49,11 +50,11 @@ impl Follower {
     /// Carries out an input.
     ///
     /// # Errors
-    /// In words, if it cannot be carried out here.
-    pub fn apply(&mut self, input: &Input) -> Result<(), String> {
+    /// If it cannot be carried out here.
+    pub(super) fn apply(&mut self, input: &Input) -> Result<(), Lost> {
         if let Input::Rate(hz) = input {
             let method = Method { hz: *hz, ..*self.method() };
-            return self.stepper.set_method(method).map_err(|error| error.to_string());
+            return Ok(self.stepper.set_method(method)?);
         }
         input.apply(&mut self.world)
     }
@@ -61,11 +62,11 @@ impl Follower {
     /// Takes a step.
     ///
     /// # Errors
-    /// In words, if the run diverges; the world is then as it was before.
-    pub fn step(&mut self) -> Result<(), String> {
+    /// If the run diverges; the world is then as it was before.
+    pub(super) fn step(&mut self) -> Result<(), Lost> {
         self.report = self.stepper.step(&mut self.world);
         match &self.report.divergence {
-            Some(divergence) => Err(divergence.to_string()),
+            Some(divergence) => Err(Lost::Diverged(divergence.clone())),
             None => Ok(()),
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::app::command::Edit;
 use crate::app::edit;
+use crate::app::error::Lost;
 use crate::engine::{DVec2, Grip, Id, Tuning, World};
 
 /// One change of a world from outside.
@@ -38,20 +39,21 @@ impl Input {
     }
 
     /// Carries it out. On an error the world may be half changed.
-    pub(super) fn apply(&self, world: &mut World) -> Result<(), String> {
-        let text = |error: crate::engine::EngineError| error.to_string();
+    pub(super) fn apply(&self, world: &mut World) -> Result<(), Lost> {
         match self {
-            Input::Gravity(gravity) => world.set_gravity(*gravity).map_err(text),
-            Input::Drag(drag) => world.set_drag(*drag).map_err(text),
-            Input::Tuning(tuning) => world.set_tuning(*tuning).map_err(text),
-            Input::Hold(grip) => world.set_grip(Some(*grip)).map_err(text),
-            Input::Move(target) => match world.grip().copied() {
-                Some(grip) => world.set_grip(Some(Grip { target: *target, ..grip })).map_err(text),
-                None => Ok(()),
-            },
-            Input::Release => world.set_grip(None).map_err(text),
-            Input::Edit(edit) => edit::apply(world, edit).map(drop).map_err(|error| error.to_string()),
-            Input::Rate(_) => Ok(()),
+            Input::Gravity(gravity) => world.set_gravity(*gravity)?,
+            Input::Drag(drag) => world.set_drag(*drag)?,
+            Input::Tuning(tuning) => world.set_tuning(*tuning)?,
+            Input::Hold(grip) => world.set_grip(Some(*grip))?,
+            Input::Move(target) => {
+                if let Some(grip) = world.grip().copied() {
+                    world.set_grip(Some(Grip { target: *target, ..grip }))?;
+                }
+            }
+            Input::Release => world.set_grip(None)?,
+            Input::Edit(edit) => drop(edit::apply(world, edit)?),
+            Input::Rate(_) => {}
         }
+        Ok(())
     }
 }

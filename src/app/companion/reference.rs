@@ -3,6 +3,7 @@
 use super::report::{Report, Standing};
 use super::separation::{Gap, Separation};
 use super::{Beginning, Extent, Follower, Input, Pose};
+use crate::app::error::Lost;
 use crate::engine::{EngineError, Id, Integrator, LinearSolver, Method, Solver, StepReport, World};
 use crate::measure::Growth;
 use crate::truth::Trajectory;
@@ -77,8 +78,8 @@ struct Pair {
 
 impl Reference {
     /// # Errors
-    /// In words, if no run can be begun.
-    pub fn new(beginning: Box<Beginning>, extent: Extent) -> Result<Reference, String> {
+    /// If no run can be begun.
+    pub fn new(beginning: Box<Beginning>, extent: Extent) -> Result<Reference, Lost> {
         let known = beginning.untouched.then(|| beginning.start.known_motion()).flatten();
         let source = match known {
             Some(known) => Source::Known(known),
@@ -90,7 +91,7 @@ impl Reference {
         let mut reference = Reference {
             extent,
             length,
-            growth: Growth::new(&beginning.world, &method, length).map_err(|error| error.to_string())?,
+            growth: Growth::new(&beginning.world, &method, length)?,
             rates: vec![(0, beginning.hz)],
             steps: 0,
             source,
@@ -107,10 +108,10 @@ impl Reference {
     }
 
     /// Carries out an input. What is known of the motion ends there: it is computed from the beginning on.
-    pub fn input(&mut self, input: &Input, goes_on: &dyn Fn() -> bool) -> Result<(), String> {
+    pub fn input(&mut self, input: &Input, goes_on: &dyn Fn() -> bool) -> Result<(), Lost> {
         if let Input::Rate(hz) = input {
             self.rates.push((self.steps, *hz));
-            self.growth.set_rate(*hz).map_err(|error| error.to_string())?;
+            self.growth.set_rate(*hz)?;
         } else {
             self.growth.change(|world| input.apply(world).is_ok());
         }
@@ -124,7 +125,7 @@ impl Reference {
     }
 
     /// What is known ends here: goes on computing, if it is to.
-    fn leave_known(&mut self, touched: bool, goes_on: &dyn Fn() -> bool) -> Result<(), String> {
+    fn leave_known(&mut self, touched: bool, goes_on: &dyn Fn() -> bool) -> Result<(), Lost> {
         if self.extent == Extent::Computed {
             return self.compute(goes_on);
         }
@@ -133,7 +134,7 @@ impl Reference {
     }
 
     /// Goes as far as `extent` from now on. One that had ended begins anew where the simulation is.
-    pub fn set_extent(&mut self, extent: Extent, beginning: Box<Beginning>) -> Result<(), String> {
+    pub fn set_extent(&mut self, extent: Extent, beginning: Box<Beginning>) -> Result<(), Lost> {
         match (&self.source, extent) {
             (Source::Over { .. }, Extent::Computed) => *self = Reference::new(beginning, extent)?,
             (Source::Computed(_) | Source::Parted { .. }, Extent::Known) => {
@@ -146,7 +147,7 @@ impl Reference {
     }
 
     /// Follows a step, after which the simulation is `here`. A new distance, if there is one.
-    pub fn step(&mut self, here: &Pose, goes_on: &dyn Fn() -> bool) -> Result<Option<Gap>, String> {
+    pub fn step(&mut self, here: &Pose, goes_on: &dyn Fn() -> bool) -> Result<Option<Gap>, Lost> {
         self.steps += 1;
         (self.tick, self.time) = (here.tick, here.time);
         if matches!(self.source, Source::Known(_) | Source::Computed(_)) {
@@ -164,7 +165,7 @@ impl Reference {
     }
 
     /// Runs from the beginning to where the simulation is now, without inputs: none has come so far but changes of the rate.
-    fn compute(&mut self, goes_on: &dyn Fn() -> bool) -> Result<(), String> {
+    fn compute(&mut self, goes_on: &dyn Fn() -> bool) -> Result<(), Lost> {
         let mut pair = Pair::new(&self.beginning)?;
         let mut rates = self.rates.iter().peekable();
         for step in 0..self.steps {
@@ -172,7 +173,7 @@ impl Reference {
                 pair.apply(&Input::Rate(*hz))?;
             }
             if !goes_on() {
-                return Err("it was left".into());
+                return Err(Lost::Left);
             }
             pair.step()?;
         }
@@ -247,11 +248,11 @@ fn disturbed(world: &World) -> Result<World, EngineError> {
 }
 
 impl Pair {
-    fn new(beginning: &Beginning) -> Result<Pair, String> {
+    fn new(beginning: &Beginning) -> Result<Pair, Lost> {
         let own = Method { hz: beginning.hz, ..beginning.start.method };
         let [fine, coarse] = reference_methods(&own);
-        let begin = |world, method| Follower::new(world, method).map_err(|error| error.to_string());
-        let disturbed = disturbed(&beginning.world).map_err(|error| error.to_string())?;
+        let begin = Follower::new;
+        let disturbed = disturbed(&beginning.world)?;
         Ok(Pair {
             fine: begin(beginning.world.clone(), fine)?,
             coarse: begin(disturbed, coarse)?,
@@ -260,12 +261,12 @@ impl Pair {
         })
     }
 
-    fn apply(&mut self, input: &Input) -> Result<(), String> {
+    fn apply(&mut self, input: &Input) -> Result<(), Lost> {
         self.fine.apply(input)?;
         self.coarse.apply(input)
     }
 
-    fn step(&mut self) -> Result<(), String> {
+    fn step(&mut self) -> Result<(), Lost> {
         self.fine.step()?;
         self.coarse.step()?;
         self.by_substeps |= self.fine.report().substeps > 0;

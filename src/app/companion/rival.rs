@@ -3,6 +3,7 @@
 use super::report::{Report, Standing};
 use super::separation::{Gap, Separation};
 use super::{Beginning, Follower, Input, Pose};
+use crate::app::error::Lost;
 use crate::app::frame::{Frame, SceneInfo, Speed};
 use crate::app::laboratory::Lab;
 use crate::app::plot_data::{Plots, Sample};
@@ -27,12 +28,12 @@ pub(super) struct Rival {
 
 impl Rival {
     /// # Errors
-    /// In words, if the method cannot be used.
-    pub fn new(beginning: Box<Beginning>, method: Method) -> Result<Rival, String> {
+    /// If the method cannot be used.
+    pub fn new(beginning: Box<Beginning>, method: Method) -> Result<Rival, Lost> {
         let length = beginning.length();
         let Beginning { world, scene, hz, .. } = *beginning;
         let (since, here, measures) = (world.time(), Pose::of(&world), Measures::of(&world));
-        let follower = Follower::new(world, Method { hz, ..method }).map_err(|error| error.to_string())?;
+        let follower = Follower::new(world, Method { hz, ..method })?;
         let mut separation = Separation::default();
         separation.compare(&follower.world().bodies().id, &here, &here, length, 0.0);
         let (plots, trace) = (Plots::default(), Trace::default());
@@ -40,11 +41,11 @@ impl Rival {
     }
 
     /// Steps with another method from now on.
-    pub fn set_method(&mut self, method: Method) -> Result<(), String> {
-        self.follower.set_method(method).map_err(|error| error.to_string())
+    pub fn set_method(&mut self, method: Method) -> Result<(), Lost> {
+        Ok(self.follower.set_method(method)?)
     }
 
-    pub fn input(&mut self, input: &Input) -> Result<(), String> {
+    pub fn input(&mut self, input: &Input) -> Result<(), Lost> {
         self.follower.apply(input)?;
         if matches!(input, Input::Edit(_)) {
             self.before = Pose::default();
@@ -55,7 +56,7 @@ impl Rival {
     }
 
     /// Follows a step, after which the simulation is `here`. The new distance.
-    pub fn step(&mut self, here: &Pose) -> Result<Option<Gap>, String> {
+    pub fn step(&mut self, here: &Pose) -> Result<Option<Gap>, Lost> {
         self.before = Pose::of(self.follower.world());
         self.follower.step()?;
         let world = self.follower.world();

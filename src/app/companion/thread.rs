@@ -6,6 +6,7 @@ use super::report::{Board, Report, Standing};
 use super::rival::Rival;
 use super::separation::Gap;
 use super::{Beginning, Extent, Input, Pose};
+use crate::app::error::Lost;
 use crate::engine::Method;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -144,7 +145,7 @@ impl Thread {
 
     fn step(&self, generation: u64, here: &Pose, work: &mut Work) {
         if self.gate.is_overrun() {
-            self.guard(work, |_| Err(OVERRUN.into()));
+            self.guard(work, |_| Err(Lost::Overrun));
             return;
         }
         let gate = self.gate.clone();
@@ -156,17 +157,17 @@ impl Thread {
     }
 
     /// Does something with the runner. What fails, or panics, ends it, and its last report says why.
-    fn guard(&self, work: &mut Work, act: impl FnOnce(&mut Work) -> Result<Option<Gap>, String>) {
+    fn guard(&self, work: &mut Work, act: impl FnOnce(&mut Work) -> Result<Option<Gap>, Lost>) {
         let had = work.runner.is_some();
         let outcome = catch_unwind(AssertUnwindSafe(|| act(work)));
-        let outcome = outcome.unwrap_or_else(|_| Err("a step failed, which is a defect of Tautline".into()));
+        let outcome = outcome.unwrap_or(Err(Lost::Failed));
         work.stale = true;
         match outcome {
             Ok(gap) => gap.into_iter().for_each(|gap| self.board.push(gap)),
             Err(why) => {
                 if had || matches!(work.last.standing, Standing::Waiting) {
                     let last = work.report().unwrap_or_else(|| work.last.clone());
-                    work.last = Report { standing: Standing::Lost(why), frame: last.frame.clone(), ..last };
+                    work.last = Report { standing: Standing::Lost(why.to_string()), frame: last.frame.clone(), ..last };
                 }
                 work.runner = None;
             }
@@ -190,6 +191,3 @@ impl Work {
         }
     }
 }
-
-/// Why a companion that fell too far behind was given up.
-const OVERRUN: &str = "it cannot keep up with this scene. Slow the run down, or restart it";
