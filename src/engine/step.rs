@@ -128,7 +128,7 @@ impl Stepper {
     fn substeps(&mut self, world: &World, report: &mut StepReport, laps: &mut Laps) {
         self.load(world);
         self.islands.forget_pulls(world, &mut self.force);
-        report.substeps = self.method.substeps;
+        report.substeps = if self.plan.rest_is_pushed { self.method.substeps } else { 0 };
         for substep in 0..self.method.substeps {
             if self.plan.spin {
                 self.substep::<true>(world, report, laps);

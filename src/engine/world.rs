@@ -86,7 +86,7 @@ pub struct World {
 /// The name of a state of the things a plan is derived from. Never given twice in a process, so that a plan made for one
 /// world cannot be taken for another's, also after undo. Not part of the physics: any two compare equal.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Revision(u64);
+pub struct Revision(u64);
 
 impl Revision {
     fn next() -> Revision {

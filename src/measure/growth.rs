@@ -3,7 +3,7 @@
 use crate::engine::{DVec2, EngineError, Method, StepReport, Stepper, World};
 
 /// From which growth on it is worth a word: below it an accuracy of 1e-3 is still one of a tenth.
-pub const SENSITIVE: f64 = 100.0;
+pub const SENSITIVE: f64 = 20.0;
 
 /// Size of the disturbance, in parts of the scene's length: so small that only its first power counts, so large that a
 /// step which the two runs divide differently does not show. Their accuracy is [`ACCURACY`] or that of the run.

@@ -157,6 +157,9 @@ pub(crate) struct Foresight {
     pub steps: u32,
     /// Work of what carried it when methods were last compared [ns].
     pub work: f64,
+    /// How many times the accuracy it was carried with, where nothing could carry it with that; 0 if it could.
+    #[serde(default)]
+    pub coarser: f64,
 }
 
 impl Constraints {

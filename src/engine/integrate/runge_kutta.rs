@@ -14,6 +14,9 @@ use crate::engine::island::System;
 /// Largest turn of a rod and largest h ω in a step.
 pub(crate) const TURN: f64 = 1.0;
 pub(crate) const SWING: f64 = 2.0;
+/// Cosine of the largest turn of a spring in a step for an accuracy: where one flies past its anchor the force changes within the step, and
+/// no stage may see it.
+const SPRING_TURN: f64 = 0.75;
 /// Most steps for an accuracy. What takes more is stiff, or asks for a higher order.
 const MOST_WITHIN: f64 = 64.0;
 /// Times that the number of steps is corrected.
@@ -112,7 +115,7 @@ impl RungeKutta {
         let mut sum = 0.0;
         for step in 0..steps as u32 {
             let took = |h: f64| {
-                let went_well = self.step(system, h);
+                let went_well = self.step(system, h, matches!(pace, Pace::Within(_)));
                 if went_well {
                     sum += self.error(system, h);
                 }
@@ -129,15 +132,11 @@ impl RungeKutta {
                 return Run::Again(more.unwrap_or(steps + 1.0));
             }
         }
-        if matches!(pace, Pace::Within(_)) && system.springs.turn_over(&system.nodes, &self.start[0], &self.start[1]) {
-            // Nothing tells how long it was on the wrong side.
-            sum = system.length;
-        }
         Run::Done(sum)
     }
 
-    /// One step of `h` seconds; changes nothing if the constraints cannot be met at its end.
-    fn step(&mut self, system: &mut System, h: f64) -> bool {
+    /// One step of `h` seconds; changes nothing if the constraints cannot be met at its end, or if it is `watched` and a spring turns too far.
+    fn step(&mut self, system: &mut System, h: f64, watched: bool) -> bool {
         keep(&mut self.before, system, &self.ax, &self.ay);
         for (sum, rate) in self.sum.iter_mut().zip(&self.before[2..]) {
             sum.iter_mut().zip(rate).for_each(|(sum, rate)| *sum = FIRST * rate);
@@ -157,7 +156,9 @@ impl RungeKutta {
         for (values, (start, sum)) in system.nodes.coordinates().into_iter().zip(self.before.iter().zip(&self.sum)) {
             values.iter_mut().zip(start.iter().zip(sum)).for_each(|(to, (from, rate))| *to = from + h * rate);
         }
-        if system.meet_constraints() {
+        let [x, y, ..] = &self.before;
+        let turned = watched && system.springs.turn_beyond(&system.nodes, x, y, SPRING_TURN);
+        if !turned && system.meet_constraints() {
             self.accelerate(system);
             return true;
         }

@@ -153,8 +153,14 @@ impl Springs {
         largest.value().sqrt()
     }
 
-    /// Whether a spring with a rest length points backwards, seen from when the nodes stood at `x` and `y`.
+    /// Whether a spring whose force depends on where it points points backwards, seen from when the nodes stood at `x` and `y`.
     pub fn turn_over(&self, nodes: &Nodes, x: &[f64], y: &[f64]) -> bool {
+        self.turn_beyond(nodes, x, y, 0.0)
+    }
+
+    /// The same where it has turned by more than an angle with this `cosine` ≥ 0. With neither rest length nor damper the force is as smooth
+    /// near zero length as elsewhere.
+    pub fn turn_beyond(&self, nodes: &Nodes, x: &[f64], y: &[f64], cosine: f64) -> bool {
         let [mut dx, mut dy, mut ex, mut ey] = [[0.0; SIDE]; 4];
         self.pairs.blocks::<SIDE>().any(|block| {
             let range = block.range();
@@ -162,8 +168,13 @@ impl Springs {
             for (from, to) in [(x, &mut dx), (y, &mut dy), (&nodes.x[..], &mut ex), (&nodes.y[..], &mut ey)] {
                 block.differences(from, &mut to[..n]);
             }
-            let rest = &self.rest[range][..n];
-            (0..n).any(|i| rest[i] > 0.0 && dx[i] * ex[i] + dy[i] * ey[i] < 0.0)
+            let (rest, damping) = (&self.rest[range.clone()][..n], &self.damping[range][..n]);
+            (0..n).any(|i| {
+                let along = dx[i] * ex[i] + dy[i] * ey[i];
+                let squares = (dx[i] * dx[i] + dy[i] * dy[i]) * (ex[i] * ex[i] + ey[i] * ey[i]);
+                let far = along < 0.0 || along * along < cosine * cosine * squares;
+                (rest[i] > 0.0 || damping[i] > 0.0) && far
+            })
         })
     }
 

@@ -7,7 +7,7 @@
 //!
 //! Where no method keeps the accuracy within the work that a step may cost, the best result is taken, and the outcome says so. What was
 //! best goes on, with half the work after each such contest, down to an eighth, and contests become rare: trying in vain is not what
-//! time is for.
+//! time is for. Where none of them gets to the end of the step at all, coarser accuracies are tried: those hold where finer ones break.
 
 use super::System;
 use super::accelerations::Rates;
@@ -53,6 +53,9 @@ const SERIES_SWING: f64 = 6.0;
 const DEAREST: f64 = 1.0;
 /// Times that this is halved where no method keeps the accuracy.
 const MOST_HALVINGS: u32 = 3;
+/// Where nothing can carry an island with the accuracy at all, so many times coarser ones are tried in turn, up to the coarsest.
+const COARSER: f64 = 100.0;
+const COARSEST: f64 = 1e-2;
 
 /// The methods, and their scratch memory.
 #[derive(Debug, Default)]
@@ -112,6 +115,8 @@ struct Try {
     integrator: Integrator,
     outcome: Outcome,
     work: f64,
+    /// As in the foresight.
+    coarser: f64,
 }
 
 impl Try {
@@ -200,7 +205,7 @@ impl Ladder {
         (world, time): (&World, f64),
     ) -> (Integrator, Outcome) {
         if plan.second_order() && RattleTurning::takes(system) {
-            let outcome = self.rattle_turning.advance(system, time, plan.pace(system.length));
+            let outcome = self.rattle_turning.advance(system, time, plan.pace(system.length, plan.accuracy));
             if plan.steps.is_some() || (outcome.kept && !outcome.stiff && !outcome.failed) {
                 return (Integrator::Rattle, outcome);
             }
@@ -223,7 +228,8 @@ impl Ladder {
         }
         let mut foresight = system.foresight;
         let dearest = DEAREST / f64::from(1u32 << foresight.lapses.min(MOST_HALVINGS));
-        let most = dearest * 1e9 * time * self.own[index].work.links() / self.links;
+        let whole = 1e9 * time * self.own[index].work.links() / self.links;
+        let most = dearest * whole;
         let alone = Limit { most, ..Limit::NONE };
         let mut first = None;
         let passes = system.swing_through_zero(time) > 0.0;
@@ -235,10 +241,12 @@ impl Ladder {
                 return (Integrator::Taylor, tried.outcome);
             }
             first = Some(tried);
-        } else if let Some(integrator) = foresight.integrator.filter(|integrator| plan.takes(*integrator)) {
+        } else if let Some(integrator) =
+            foresight.integrator.filter(|integrator| plan.takes(*integrator, system.accuracy(plan)))
+        {
             let tried = self.attempt(index, (plan, system), integrator, time, alone);
             (foresight.parts, foresight.steps) = (system.foresight.parts, system.foresight.steps);
-            let will_do = tried.outcome.kept && !tried.outcome.failed || foresight.lapses > 0;
+            let will_do = !tried.outcome.failed && (tried.outcome.kept || foresight.lapses > 0);
             if will_do && foresight.due > 1 && tried.work <= GROWN * foresight.work {
                 let lapses = foresight.lapses.saturating_sub(u32::from(tried.outcome.kept));
                 system.foresight = Foresight { due: foresight.due - 1, lapses, ..foresight };
@@ -246,7 +254,8 @@ impl Ladder {
             }
             first = Some(tried);
         }
-        let (best, vain) = self.contest(index, (plan, system), (world, time), (first, passes), most);
+        let (best, vain) = self.hold(index, (plan, system), (world, time), (first, passes), [most, DEAREST * whole]);
+        system.foresight.coarser = best.coarser;
         let stays = foresight.integrator == Some(best.integrator) && best.outcome.kept;
         let lapses = if best.outcome.kept { 0 } else { foresight.lapses + 1 };
         let interval = if stays || lapses > 1 { 2 * foresight.interval } else { 2 };
@@ -256,6 +265,33 @@ impl Ladder {
         let (integrator, work) = (Some(best.integrator), best.work);
         system.foresight = Foresight { integrator, interval, due: interval, lapses, work, ..system.foresight };
         (best.integrator, best.outcome)
+    }
+
+    /// A contest, and where nothing gets to the end of the step others with coarser accuracies, for which it may cost the second `most` [ns].
+    fn hold(
+        &mut self,
+        index: usize,
+        (plan, system): (&IslandPlan, &mut System),
+        (world, time): (&World, f64),
+        (first, passes): (Option<Try>, bool),
+        most: [f64; 2],
+    ) -> (Try, f64) {
+        // What a coarser accuracy has failed with is not tried with a finer one.
+        let broken = first.filter(|first| first.outcome.failed).map_or(0.0, |first| first.coarser);
+        let mut coarser = broken;
+        let mut vain = first.filter(|_| broken > 0.0).map_or(0.0, |first| first.work);
+        loop {
+            system.foresight.coarser = coarser;
+            let known = if coarser == 0.0 { first } else { None };
+            let most = if coarser == 0.0 { most[0] } else { most[1] };
+            let (best, spent) = self.contest(index, (plan, system), (world, time), (known, passes), most);
+            vain += spent;
+            coarser = COARSER * coarser.max(1.0);
+            if !best.outcome.failed || plan.accuracy * coarser > COARSEST {
+                return (best, vain);
+            }
+            vain += best.work;
+        }
     }
 
     /// Tries all that could be cheaper than `first`, the result of which the island holds; leaves the best result in it. Returns with it
@@ -268,8 +304,8 @@ impl Ladder {
         (first, passes): (Option<Try>, bool),
         most: f64,
     ) -> (Try, f64) {
-        let failed =
-            Try { integrator: Integrator::Taylor, outcome: Outcome { failed: true, ..Outcome::default() }, work: 0.0 };
+        let outcome = Outcome { failed: true, kept: false, ..Outcome::default() };
+        let failed = Try { integrator: Integrator::Taylor, outcome, work: 0.0, coarser: 0.0 };
         let mut best = first.filter(|first| !first.outcome.failed);
         let mut work = first.map_or(0.0, |first| first.work);
         if best.is_some() {
@@ -283,7 +319,7 @@ impl Ladder {
         let (mut untouched, mut holds_best) = (true, false);
         for (bound, integrator) in least {
             let known = first.is_some_and(|first| first.integrator == integrator);
-            if known || !plan.takes(integrator) || !takes(integrator, system) {
+            if known || !plan.takes(integrator, system.accuracy(plan)) || !takes(integrator, system) {
                 continue;
             }
             let rival = best.filter(|best| best.outcome.kept).map_or(f64::INFINITY, |best| best.work);
@@ -353,7 +389,9 @@ impl Ladder {
         system.foresight.steps = outcome.next;
         let work = self.own[index].work.done(integrator, &outcome);
         let failed = outcome.failed || outcome.stiff;
-        Try { integrator, outcome: Outcome { failed, kept: outcome.kept && !failed, ..outcome }, work }
+        let coarser = system.foresight.coarser;
+        let kept = outcome.kept && !failed && coarser == 0.0;
+        Try { integrator, outcome: Outcome { failed, kept, ..outcome }, work, coarser }
     }
 
     /// Runs one method, within about the limit.
@@ -365,7 +403,8 @@ impl Ladder {
         time: f64,
         limit: Limit,
     ) -> Outcome {
-        let pace = plan.pace(system.length);
+        let (length, accuracy) = (system.length, system.accuracy(plan));
+        let pace = plan.pace(length, accuracy);
         let own = &mut self.own[index];
         let most = |order: f64, solves: f64| {
             (limit.least() / own.work.of(integrator, 1.0, order, solves)).clamp(1.0, 4.0 * f64::from(BUDGET))
@@ -376,15 +415,15 @@ impl Ladder {
             Integrator::EnergyMomentum => {
                 own.energy_momentum.advance(system, time, pace, (2.0 * most(2.0, 2.0), steps))
             }
-            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, plan.kutta_pace(system.length), steps),
-            Integrator::Nystrom4 => self.nystrom.advance(system, time, (plan.fine_pace(system.length), steps), 4),
-            Integrator::Nystrom6 => self.nystrom.advance(system, time, (plan.fine_pace(system.length), steps), 6),
+            Integrator::RungeKutta4 => self.runge_kutta.advance(system, time, plan.kutta_pace(length, accuracy), steps),
+            Integrator::Nystrom4 => self.nystrom.advance(system, time, (plan.fine_pace(length, accuracy), steps), 4),
+            Integrator::Nystrom6 => self.nystrom.advance(system, time, (plan.fine_pace(length, accuracy), steps), 6),
             Integrator::Radau3 | Integrator::Radau5 => {
                 let five = usize::from(integrator == Integrator::Radau5);
                 let member = [Member::Three, Member::Five][five];
                 let parts = Some(system.foresight.parts[five]).filter(|parts| *parts > 0.0);
                 let task = Task {
-                    pace: plan.whole_pace(system.length),
+                    pace: plan.whole_pace(length, accuracy),
                     member,
                     parts,
                     most: most(5.0, 3.0).min(1024.0),
@@ -395,7 +434,7 @@ impl Ladder {
                 outcome
             }
             _ => {
-                let tolerance = plan.series_tolerance * system.length;
+                let tolerance = plan.series_tolerance * length * (accuracy / plan.accuracy);
                 let order = plan.series_order();
                 let budget = if limit.least().is_finite() { most(order, 0.0) as u32 } else { BUDGET };
                 self.taylor.advance(system, time, tolerance, budget.max(1))
@@ -416,6 +455,13 @@ const RUNGS: [Integrator; 8] = [
     Integrator::Radau5,
 ];
 
+impl System {
+    /// What the island is carried with: the wanted accuracy, or a coarser one where nothing could carry it with that.
+    fn accuracy(&self, plan: &IslandPlan) -> f64 {
+        plan.accuracy * self.foresight.coarser.max(1.0)
+    }
+}
+
 /// Whether a method takes an island as it is now, with the mouse's hold.
 fn takes(integrator: Integrator, system: &System) -> bool {
     !matches!(integrator, Integrator::Nystrom4 | Integrator::Nystrom6) || Nystrom::takes(system)
@@ -423,7 +469,7 @@ fn takes(integrator: Integrator, system: &System) -> bool {
 
 impl IslandPlan {
     /// Whether a contest may try a method: by its order, and by what it takes.
-    pub fn takes(&self, integrator: Integrator) -> bool {
+    pub fn takes(&self, integrator: Integrator, accuracy: f64) -> bool {
         // Others do not solve for the multipliers by themselves, and a solver was chosen.
         let chosen = self.linear.0 != LinearSolver::SparseLdl;
         if chosen && !matches!(integrator, Integrator::Rattle | Integrator::RungeKutta4 | Integrator::Taylor) {
@@ -431,11 +477,11 @@ impl IslandPlan {
         }
         match integrator {
             // Ropes that tighten and slacken need events.
-            Integrator::Rattle | Integrator::EnergyMomentum => self.accuracy >= SECOND_ORDER && !self.ropes,
-            Integrator::RungeKutta4 => self.accuracy >= KUTTA && !self.ropes,
-            Integrator::Nystrom4 => self.accuracy >= FOURTH_ORDER && self.springs,
+            Integrator::Rattle | Integrator::EnergyMomentum => accuracy >= SECOND_ORDER && !self.ropes,
+            Integrator::RungeKutta4 => accuracy >= KUTTA && !self.ropes,
+            Integrator::Nystrom4 => accuracy >= FOURTH_ORDER && self.springs,
             Integrator::Nystrom6 => self.springs,
-            Integrator::Radau3 => self.accuracy >= FIFTH_ORDER,
+            Integrator::Radau3 => accuracy >= FIFTH_ORDER,
             Integrator::Taylor | Integrator::Radau5 => true,
             _ => false,
         }

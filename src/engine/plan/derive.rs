@@ -26,7 +26,7 @@ impl Plan {
         self.in_island.clear();
         self.in_island.resize(world.bodies.len(), false);
         self.integrator = method.integrator;
-        self.rest = true;
+        (self.rest, self.rest_is_pushed) = (true, true);
         if !method.automatic && !method.integrator.is_direct() {
             return;
         }
@@ -50,6 +50,7 @@ impl Plan {
         }
         let bodies = &world.bodies;
         self.rest = (0..bodies.len()).any(|i| !self.in_island[i] && bodies.motion[i] != Motion::Static);
+        self.rest_is_pushed = (0..bodies.len()).any(|i| !self.in_island[i] && bodies.inverse_mass[i] > 0.0);
     }
 
     /// Whether a group is of free bodies that can touch.

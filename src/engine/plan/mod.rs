@@ -42,6 +42,8 @@ pub struct Plan {
     pub few: Option<FewPlan>,
     /// Whether anything is left for the substep loop.
     pub rest: bool,
+    /// Whether forces move any of it; kinematic bodies go their way exactly.
+    pub rest_is_pushed: bool,
     /// By body: carried by an island.
     pub(crate) in_island: Vec<bool>,
     /// Integrator of the rest.
@@ -114,7 +116,7 @@ impl Plan {
     }
 
     /// The name of this derivation, for who keeps what follows from it.
-    pub(crate) fn version(&self) -> Revision {
+    pub fn version(&self) -> Revision {
         self.version
     }
 

@@ -51,25 +51,25 @@ impl IslandPlan {
         self.carrier != Carrier::Cheapest || self.accuracy >= TURNING_SECOND_ORDER
     }
 
-    /// What methods of order 2 are asked for on an island of this size [m].
-    pub(crate) fn pace(&self, length: f64) -> Pace {
+    /// What methods of order 2 are asked for on an island of this size [m], for an accuracy: its own, or a coarser one where that fails.
+    pub(crate) fn pace(&self, length: f64, accuracy: f64) -> Pace {
         let local = if self.turning > 0 { LOCAL_SECOND_TURNING } else { LOCAL_SECOND };
-        self.steps.map_or(Pace::Within(local * self.accuracy.min(LOOSEST_SECOND) * length), Pace::Steps)
+        self.steps.map_or(Pace::Within(local * accuracy.min(LOOSEST_SECOND) * length), Pace::Steps)
     }
 
     /// The same for Nyström's methods.
-    pub(crate) fn fine_pace(&self, length: f64) -> Pace {
-        self.steps.map_or(Pace::Within(LOCAL_NYSTROM * self.accuracy.min(LOOSEST_SERIES) * length), Pace::Steps)
+    pub(crate) fn fine_pace(&self, length: f64, accuracy: f64) -> Pace {
+        self.steps.map_or(Pace::Within(LOCAL_NYSTROM * accuracy.min(LOOSEST_SERIES) * length), Pace::Steps)
     }
 
     /// The same for Runge and Kutta's.
-    pub(crate) fn kutta_pace(&self, length: f64) -> Pace {
-        self.steps.map_or(Pace::Within(LOCAL_KUTTA * self.accuracy * length), Pace::Steps)
+    pub(crate) fn kutta_pace(&self, length: f64, accuracy: f64) -> Pace {
+        self.steps.map_or(Pace::Within(LOCAL_KUTTA * accuracy * length), Pace::Steps)
     }
 
     /// The same for Radau's, which know how local errors add up.
-    pub(crate) fn whole_pace(&self, length: f64) -> Pace {
-        self.steps.map_or(Pace::Within(self.accuracy * length), Pace::Steps)
+    pub(crate) fn whole_pace(&self, length: f64, accuracy: f64) -> Pace {
+        self.steps.map_or(Pace::Within(accuracy * length), Pace::Steps)
     }
 
     /// About the order that a series takes.
