@@ -135,7 +135,7 @@ fn bridge() -> Frame {
             stage_us: stage_us.map(|us| us * busy),
             step_us: 310.0 * busy,
             local_error: 1e-9 * (1.0 + busy),
-            lapses: 0,
+            fell_short: false,
         });
     }
     let measures = plots.read().back().expect("pushed above").measures;
@@ -324,10 +324,10 @@ fn steps_that_did_not_keep_the_accuracy_are_told_by_the_bar_and_the_plot() {
     assert!(harness.query_by_label_contains("Accuracy kept").is_some());
     assert!(harness.query_by_label_contains("Not kept").is_none());
     let last = *frame.plots.read().back().expect("it has samples");
-    let report = StepReport { given_up: 1, ..frame.report };
+    let report = StepReport { given_up: 1, substeps: 4, ..frame.report };
     for i in 1..=3 {
         let measures = Measures { time: last.measures.time + f64::from(i) / 60.0, ..last.measures };
-        frame.plots.push(Sample::new(measures, &report));
+        frame.plots.push(Sample::new(measures, &report, true));
     }
     harness.run();
     assert!(harness.query_by_label_contains("Accuracy not kept in 3 of").is_some());
@@ -464,6 +464,42 @@ fn typing_a_path_opens_the_file_and_save_writes_one() {
     harness.state_mut().frame = Arc::new(saved);
     harness.run();
     harness.get_by_label("Saved to mine.ron");
+}
+
+#[test]
+fn another_file_is_not_replaced_before_its_owner_was_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let diary = folder.path().join("diary.txt");
+    std::fs::write(&diary, "dear diary").unwrap();
+    let mut harness = harness(bridge());
+    let save = |harness: &mut Harness<'_, Desk>| {
+        harness.state_mut().shell.state_mut().save_path = diary.to_string_lossy().into_owned();
+        harness.run();
+        harness.get_by_label("Save as…").click();
+        harness.run();
+    };
+    save(&mut harness);
+    assert!(taken(&mut harness).is_empty(), "nothing is written unasked");
+    assert!(harness.query_by_label_contains("is there already and is not this scene's file").is_some());
+    harness.get_by_label("Keep it").click();
+    harness.run();
+    let commands = taken(&mut harness);
+    assert!(commands.is_empty(), "{commands:?}");
+    assert!(harness.query_by_label("Replace it").is_none());
+    save(&mut harness);
+    // Another name, and the question is withdrawn.
+    harness.state_mut().shell.state_mut().save_path = folder.path().join("other.ron").to_string_lossy().into_owned();
+    harness.run();
+    assert!(harness.query_by_label("Replace it").is_none());
+    save(&mut harness);
+    harness.get_by_label("Replace it").click();
+    harness.run();
+    assert!(matches!(&taken(&mut harness)[..], [Command::SaveAs(path)] if *path == diary));
+    // What this scene was saved to before is its own.
+    let own = Frame { saved: Some(diary.to_string_lossy().into_owned()), ..bridge() };
+    harness.state_mut().frame = Arc::new(own);
+    save(&mut harness);
+    assert!(matches!(&taken(&mut harness)[..], [Command::SaveAs(path)] if *path == diary));
 }
 
 #[test]

@@ -26,8 +26,11 @@ pub enum Command {
     SaveAs(std::path::PathBuf),
     /// Changes how the world is stepped.
     Method(Method),
+    /// Changes the gravity of the world [m/s²].
     Gravity(DVec2),
+    /// Changes the rate at which free motion dies away [1/s].
     Drag(f64),
+    /// Changes the values that stand in for those of all contacts and springs.
     Tuning(Tuning),
     /// Lets the truth follow the simulation further than it is known, or no longer. A motion that is known is compared in any
     /// case.
@@ -38,7 +41,9 @@ pub enum Command {
     Lab(LabOrder),
     /// Takes hold of a body at a point of the world; replaces any hold.
     Grab {
+        /// The body that is held.
         body: Id,
+        /// Where on it the hold begins [m].
         at: DVec2,
     },
     /// Moves the hold's target [m].
@@ -49,11 +54,16 @@ pub enum Command {
     Edit(Edit),
     /// A piece of a slash, from point to point: cuts what it crosses [m]. All pieces since the first are undone as one.
     Slash {
+        /// Where the piece begins [m].
         from: DVec2,
+        /// Where the piece ends [m].
         to: DVec2,
+        /// Whether a new slash begins here, and with it a new entry of undo.
         first: bool,
     },
+    /// Takes back the last edit, restart or opening, if there is one.
     Undo,
+    /// Does again what was undone last, unless something was changed since.
     Redo,
     /// Forgets the shown fault.
     DismissFault,
@@ -68,8 +78,11 @@ pub enum Command {
 pub enum Edit {
     /// Adds something at a point [m]. `size` is the radius of one particle of it [m]; everything else follows from it.
     Spawn {
+        /// What to add.
         kind: Spawn,
+        /// Where its middle goes [m]; of a rope the pinned end, of a cloth the middle of the top edge.
         at: DVec2,
+        /// Radius of a particle [m], > 0.
         size: f64,
     },
     /// Copies bodies, the constraints among them, and walls, shifted by an offset [m].
@@ -82,21 +95,31 @@ pub enum Edit {
     Pin(Vec<Id>, bool),
     /// Gives a body those properties of `to` that differ from `from`; the rest, such as the motion since `from` was read, stays.
     ChangeBody {
+        /// The body to change.
         id: Id,
+        /// The body as the user saw it.
         from: Box<Body>,
+        /// The body as the user wants it.
         to: Box<Body>,
     },
+    /// Gives a constraint another kind, or its kind other numbers.
     SetKind(Id, Kind),
+    /// Gives a wall another shape, restitution or friction.
     SetWall(Id, Wall),
     /// Joins two bodies, or a body and a point.
     Join(Constraint),
     /// Hangs a new particle of radius `size` [m] at `at` on a fixed point `from`.
     Hang {
+        /// What it hangs on: a rod, rope or spring.
         kind: Kind,
+        /// The fixed point [m].
         from: DVec2,
+        /// Centre of the new particle [m].
         at: DVec2,
+        /// Radius of the new particle [m].
         size: f64,
     },
+    /// Adds an immovable segment or box.
     AddWall(Wall),
 }
 
@@ -130,14 +153,19 @@ impl Edit {
 /// What the palette offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spawn {
+    /// A body that does not turn.
     Particle,
+    /// A body that turns and rolls.
     Disc,
     /// Two particles and a rod.
     Rod,
     /// Two particles and a spring.
     Spring,
+    /// A chain of rods, its first particle pinned.
     Rope,
+    /// A net of springs, two corners pinned.
     Cloth,
+    /// A block of discs that falls apart.
     Pile,
 }
 

@@ -125,6 +125,7 @@ pub struct Coil {
     /// Grows with the root of the rest length, so that short and long springs both look like springs; fewer where they
     /// could not be told apart.
     pub windings: f64,
+    /// From the axis to the outermost point of a winding [points].
     pub half_width: f64,
 }
 

@@ -9,8 +9,10 @@ use crate::scene::generator::{Cloth, Generator, Pile, Rope};
 /// Why an edit was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EditError {
+    /// A body, constraint or wall that the world does not take, or an id that it does not have.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// A rope, cloth or pile that cannot be generated.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }

@@ -23,13 +23,16 @@ pub(super) enum CommandError {
     /// A report is to be written over the open scene, which is called so.
     #[error("{0} is the open scene. Choose another name.")]
     OpenScene(String),
+    /// A report is to be written over a file, which is called so, that is none of this session's reports.
+    #[error("{0} is there already. Choose another name, or remove it first.")]
+    Exists(String),
     /// The system gives no thread for it.
-    #[error("the {what} cannot be started: {source}. Close other programs and try again.")]
+    #[error("the {what} cannot be started: {why}. Close other programs and try again.")]
     NoThread {
         /// What was to run on it.
         what: &'static str,
         /// Why not.
-        source: std::io::Error,
+        why: std::io::Error,
     },
 }
 

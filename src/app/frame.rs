@@ -5,9 +5,11 @@ use super::laboratory::Lab;
 use super::plot_data::Plots;
 use super::trace::Trace;
 use crate::engine::{DVec2, Id, Method, StepReport, World};
+use crate::file::is_same;
 use crate::measure::Measures;
 use crate::scene::Setup;
 use crate::trial::Verdict;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -16,7 +18,9 @@ use std::time::Instant;
 pub struct SceneInfo {
     /// Shipped name ("bridge") or path.
     pub name: String,
+    /// Heading for the user; the name where the scene has none.
     pub title: String,
+    /// One or two sentences for the user: what it shows, what to try; may be empty.
     pub about: String,
     /// Rectangle that the scene asks to show: centre and height [m].
     pub view: Option<(DVec2, f64)>,
@@ -26,9 +30,18 @@ pub struct SceneInfo {
     pub opened: u64,
 }
 
+impl Frame {
+    /// Whether a scene that is saved to `path` would take the place of a file which is not its own.
+    pub fn would_replace(&self, path: &Path) -> bool {
+        let own = [Some(self.scene.name.as_str()), self.saved.as_deref()];
+        path.exists() && !own.into_iter().flatten().any(|own| is_same(Path::new(own), path))
+    }
+}
+
 /// Speed as wanted and as achieved, in simulated seconds a second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speed {
+    /// As the user set it, 0.01 … 10; slow motion is not counted in.
     pub wanted: f64,
     /// Slow motion is on: a part of what is wanted.
     pub slow: bool,
@@ -58,13 +71,19 @@ pub struct Frame {
     pub sequence: u64,
     /// When it was published.
     pub published: Instant,
+    /// The scene that it belongs to.
     pub scene: Arc<SceneInfo>,
+    /// A copy of the world after the last step or edit.
     pub world: World,
-    /// Positions and angles one step before, by body index, for interpolation; empty if there is no such state (after an edit).
+    /// Positions one step before [m], by body index, for interpolation; empty if there is no such state: after an edit.
     pub previous_position: Vec<DVec2>,
+    /// Angles one step before [rad], 0 for particles; empty where `previous_position` is.
     pub previous_angle: Vec<f64>,
+    /// How the world is stepped.
     pub method: Method,
+    /// What the last step told of itself.
     pub report: StepReport,
+    /// Energies, momenta and violations of this state.
     pub measures: Measures,
     /// The last 20 s of measures and stage times, every step of them.
     pub plots: Plots,
@@ -72,7 +91,9 @@ pub struct Frame {
     pub trace: Trace,
     /// What the plan decided, in one sentence.
     pub plan: Arc<str>,
+    /// Whether time runs; `false` while paused.
     pub running: bool,
+    /// How fast it runs and should run.
     pub speed: Speed,
     /// What went wrong last, and how to mend it, until dismissed or resolved.
     pub fault: Option<String>,
@@ -82,8 +103,9 @@ pub struct Frame {
     pub saved: Option<String>,
     /// The scene as it was opened, if it was edited since then and not written to a file.
     pub unsaved: Option<Arc<Setup>>,
-    /// Names of the edits that undo and redo would act on.
+    /// Name of the edit that undo would take back; `None` if there is none.
     pub undo: Option<String>,
+    /// Name of the edit that redo would make again; `None` if there is none.
     pub redo: Option<String>,
     /// What the last edit made or changed; another `Arc` after every edit.
     pub touched: Arc<Vec<Id>>,

@@ -9,7 +9,9 @@ use std::sync::Arc;
 /// Everything that undo brings back.
 #[derive(Clone, Debug)]
 pub struct State {
+    /// Every body, constraint and wall, and the time.
     pub world: World,
+    /// How it was stepped then.
     pub method: Method,
     /// The scene as it was opened; undoing an opening brings back the scene before it.
     pub start: Arc<Setup>,

@@ -7,30 +7,55 @@ use super::tools::{Join, Tool};
 /// Something that a key, a button or the palette of actions can ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
+    /// Lets time run, or stops it.
     ToggleRun,
+    /// Takes one step and pauses.
     StepOnce,
+    /// Back to the start of the scene; the solver's settings stay.
     Restart,
+    /// Halves the wanted speed, down to a hundredth of real time.
     Slower,
+    /// Doubles the wanted speed, up to ten times real time.
     Faster,
+    /// A tenth of the speed while the key is held; chosen by name, until it is chosen again.
     SlowMotion,
+    /// Opens the scene before this one in the list.
     PreviousScene,
+    /// Opens the scene after this one in the list.
     NextScene,
+    /// Puts the keyboard into the field that finds scenes and opens files.
     OpenByName,
+    /// Opens an empty scene.
     NewScene,
+    /// Puts the keyboard into the field with the path to write to.
     Save,
+    /// Shows a smaller part of the world.
     ZoomIn,
+    /// Shows a larger part of the world.
     ZoomOut,
+    /// Shows the scene's own view, or everything if it has none.
     FitAll,
+    /// Shows what is selected, as large as it fits.
     FitSelection,
+    /// Hides all panels at once, or shows them again.
     TogglePanels,
+    /// Shows or hides the panel on the left.
     ToolsPanel,
+    /// Shows or hides the panel on the right.
     SettingsPanel,
+    /// Takes back the last edit, restart or opening.
     Undo,
+    /// Does again what was undone last.
     Redo,
+    /// Copies what is selected, a little to the side.
     Duplicate,
+    /// Removes what is selected and what hangs on it.
     Delete,
+    /// Fixes the selected bodies where they are, or frees them.
     Pin,
+    /// Selects every body; constraints and walls are left out.
     SelectAll,
+    /// Takes up a tool; what was going on is given up.
     Tool(Tool),
     /// Shows or hides something.
     Toggle(Shown),
@@ -38,31 +63,47 @@ pub enum Action {
     Lab,
     /// Light or dark.
     ToggleTheme,
+    /// Opens the list in which actions and scenes are found by typing.
     Palette,
+    /// Shows or hides the list of all shortcuts.
     Help,
+    /// Fills the screen with the window, or gives it back.
     FullScreen,
+    /// Closes the window.
     Quit,
+    /// Gives up one thing: a dialog, what is going on, the tool, or the selection.
     Escape,
 }
 
 /// What the view can show or leave out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
+    /// Colours of rods, ropes and springs by their tension [N].
     Tension,
+    /// Colours of moving bodies by their speed [m/s].
     Speed,
+    /// An arrow for the velocity of every body [m/s].
     Velocities,
+    /// Where bodies touch, and the normal force [N].
     Contacts,
+    /// Where bodies were, fading.
     Trails,
+    /// Lines at round distances, with units [m].
     Grid,
+    /// Curves over time, at the bottom.
     Plots,
+    /// The exact motion, drawn translucently with the simulation.
     Ghost,
+    /// The same scene under another method, beside the simulation.
     Rival,
 }
 
 /// A key with the modifiers that must be held, and no others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shortcut {
+    /// Whether Ctrl must be held, the command key on a Mac.
     pub ctrl: bool,
+    /// Whether Shift must be held.
     pub shift: bool,
     /// Name of the key as in the W3C's key values where it has one there ("ArrowRight"), else the character it types.
     pub key: &'static str,
@@ -85,10 +126,13 @@ impl std::fmt::Display for Shortcut {
 /// One line of the table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
+    /// What the line asks for; no two lines ask for the same.
     pub action: Action,
     /// The shortcuts, the one to show first.
     pub shortcuts: &'static [Shortcut],
+    /// Two or three words, as in the help and the palette of actions.
     pub name: &'static str,
+    /// One or two whole sentences: what it does.
     pub help: &'static str,
 }
 

@@ -38,11 +38,16 @@ pub enum Stage {
     Idle,
     /// The reference is computed: so many runs are done, and this part of the next.
     Refining {
+        /// Runs that are done.
         runs: u32,
+        /// Part of the next run that is done, 0 … 1.
         part: f64,
     },
+    /// Settings are tried one after another.
     Measuring,
+    /// It was stopped by the user and can be resumed.
     Stopped,
+    /// All settings are tried, or the time for them is spent.
     Finished,
     /// It ended, and why.
     Failed(String),
@@ -51,15 +56,19 @@ pub enum Stage {
 /// Where the lab stands.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LabReport {
-    /// Name and title of the scene that is measured.
+    /// Name of the scene that is measured.
     pub scene: String,
+    /// The scene's heading, as the diagram has it.
     pub title: String,
     /// Simulated time that is compared over [s].
     pub seconds: f64,
+    /// What is going on.
     pub stage: Stage,
+    /// How many settings are done; `None` before the first is tried.
     pub progress: Option<Progress>,
     /// What errors are measured against, or why there are none.
     pub reference: String,
+    /// What was measured, in the order in which it was.
     pub points: Arc<Vec<Point>>,
     /// Settings that take too long to be measured.
     pub slow: usize,

@@ -43,6 +43,7 @@ pub fn pick_body(world: &World, camera: &Camera, canvas: DVec2) -> Option<Id> {
 /// A place on a rod, rope or spring by which it can be held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Handle {
+    /// The rod, rope or spring.
     pub link: Id,
     /// The body at the nearer end that can be moved: the one that is held.
     pub body: Id,

@@ -21,20 +21,19 @@ pub struct Sample {
     pub step_us: f64,
     /// Estimate of the step's local error, in parts of an island's size; 0 where nothing estimates it.
     pub local_error: f64,
-    /// Groups whose accuracy was not kept in the step: left to the substeps, as they could not be carried or something was near,
-    /// or carried less accurately than asked. The status bar and the plot ask here; the panel says which of the three.
-    pub lapses: usize,
+    /// By accuracy: it was not kept everywhere, as [`StepReport::fell_short`] says. The status bar and the plot ask here; the panel says why.
+    pub fell_short: bool,
 }
 
 impl Sample {
     /// What a step left behind.
-    pub fn new(measures: Measures, report: &StepReport) -> Sample {
+    pub fn new(measures: Measures, report: &StepReport, automatic: bool) -> Sample {
         Sample {
             measures,
             stage_us: report.stage_us,
             step_us: report.step_us,
             local_error: report.local_error,
-            lapses: report.given_up + report.near + report.lapsed,
+            fell_short: automatic && report.fell_short(),
         }
     }
 }

@@ -14,12 +14,12 @@ const MOST: u32 = 1000;
 #[derive(Debug, thiserror::Error)]
 pub enum RescueError {
     /// It cannot be written to.
-    #[error("cannot write into {folder}: {source}")]
+    #[error("cannot write into {folder}: {why}")]
     Write {
         /// As a user would type it.
         folder: String,
         /// Why not.
-        source: WriteError,
+        why: WriteError,
     },
     /// As many as there may be are there already.
     #[error("cannot write into {folder}: {MOST} rescued states of this scene are there already")]
@@ -81,7 +81,7 @@ fn write(folder: &Path, stem: &std::ffi::OsStr, bytes: &[u8]) -> Result<PathBuf,
         match write_new(&path, bytes) {
             Ok(()) => return Ok(path),
             Err(error) if error.kind == std::io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(RescueError::Write { folder: named(folder), source: error }),
+            Err(error) => return Err(RescueError::Write { folder: named(folder), why: error }),
         }
     }
     Err(RescueError::Full { folder: named(folder) })

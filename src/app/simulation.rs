@@ -18,9 +18,10 @@ use crate::measure::Measures;
 use crate::scene::{self, Setup};
 use crate::text::named;
 use crate::trial::Trial;
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -55,6 +56,8 @@ pub(super) struct Simulation {
     note: Option<Arc<str>>,
     /// The file that the scene was last written to, until it is edited or left.
     saved: Option<String>,
+    /// Reports written in this session, which may be written anew.
+    exported: BTreeSet<PathBuf>,
     /// It was edited since it was opened or written to a file.
     edited: bool,
     /// The last entry of the history is of the slash at hand.
@@ -101,6 +104,7 @@ impl Simulation {
             fault,
             note: None,
             saved: None,
+            exported: BTreeSet::new(),
             edited: false,
             slashed: false,
             touched: Arc::default(),
@@ -188,7 +192,7 @@ impl Simulation {
             self.trial.iter_mut().for_each(Trial::lost);
         } else {
             self.measures = Measures::of(&self.world);
-            self.plots.push(Sample::new(self.measures, &report));
+            self.plots.push(Sample::new(self.measures, &report, self.stepper.method().automatic));
             self.trace.push(&self.world);
             self.links.step(&self.world);
             if let Some(trial) = &mut self.trial {
@@ -351,7 +355,12 @@ impl Simulation {
                 if self.start.file.as_ref().is_some_and(|scene| is_same(scene, &path)) {
                     return Err(CommandError::OpenScene(named(&path)));
                 }
-                Ok(self.laboratory.export(&path)?)
+                if path.exists() && !self.exported.contains(&path) {
+                    return Err(CommandError::Exists(named(&path)));
+                }
+                self.laboratory.export(&path)?;
+                self.exported.insert(path);
+                Ok(())
             }
         }
     }
@@ -578,8 +587,8 @@ pub struct Beside {
     pub rival: Option<Method>,
 }
 
-fn no_thread(what: &'static str, source: std::io::Error) -> CommandError {
-    CommandError::NoThread { what, source }
+fn no_thread(what: &'static str, why: std::io::Error) -> CommandError {
+    CommandError::NoThread { what, why }
 }
 
 /// A stepper with a clock; if the method cannot be used, the default one and why.

@@ -16,7 +16,9 @@ pub enum Tool {
     Select,
     /// Cuts what a slash crosses.
     Cut,
+    /// Adds something where it is clicked.
     Spawn(Spawn),
+    /// Joins what lies where the pointer is pressed with what lies where it is let go.
     Join(Join),
     /// Draws a wall.
     Wall,
@@ -25,8 +27,11 @@ pub enum Tool {
 /// What the join tool puts between two ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Join {
+    /// Keeps the distance that the ends have.
     Rod,
+    /// At rest at the distance that the ends have.
     Spring,
+    /// Keeps the ends from parting further; resists pull only.
     Rope,
 }
 
@@ -49,17 +54,22 @@ impl Tool {
 /// A button of the pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Button {
+    /// Works the tool in use.
     Left,
+    /// Moves the view while it is held.
     Middle,
+    /// Moves the view while it is held.
     Right,
 }
 
 /// What happened to the pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
+    /// A button goes down.
     Press(Button),
     /// With or without a button held.
     Move,
+    /// A button goes up.
     Release(Button),
     /// It left the canvas, or the window lost the focus: whatever was going on is given up.
     Leave,
@@ -68,9 +78,13 @@ pub enum Phase {
 /// Keys held with the pointer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Modifiers {
+    /// Snaps points to centres, ends, the grid and steps of 15°; selects as Ctrl does.
     pub shift: bool,
+    /// Keeps to the exact point: nothing snaps.
     pub alt: bool,
+    /// Adds to the selection, or takes one thing from it.
     pub ctrl: bool,
+    /// Lets the left button move the view.
     pub space: bool,
 }
 
@@ -79,7 +93,9 @@ pub struct Modifiers {
 pub struct PointerEvent {
     /// Where, in canvas points from the canvas's corner, y down.
     pub canvas: DVec2,
+    /// What happened.
     pub phase: Phase,
+    /// The keys held at that moment.
     pub modifiers: Modifiers,
 }
 
@@ -128,20 +144,29 @@ pub enum Feedback {
     None,
     /// From the grabbed point to the pointer; the frame's world holds the grip itself.
     Grip,
+    /// The lower left and the upper right corner of the box.
     SelectionBox(DVec2, DVec2),
+    /// Where the cut began, and the pointer.
     Slash(DVec2, DVec2),
     /// A thing about to be added, with the radius of its particles [m].
     Ghost {
+        /// What a click would add.
         kind: Spawn,
+        /// Where it would go, after snapping.
         at: DVec2,
+        /// Radius of its particles [m].
         size: f64,
     },
     /// A constraint about to be made.
     Join {
+        /// What would join the two ends.
         kind: Join,
+        /// The end where the pointer was pressed.
         from: DVec2,
+        /// The end where the pointer is, after snapping.
         to: DVec2,
     },
+    /// The two ends of a wall about to be made.
     Wall(DVec2, DVec2),
 }
 

@@ -25,12 +25,14 @@ use std::process::ExitCode;
 #[command(name = "tautline", version)]
 pub struct Arguments {
     #[command(subcommand)]
-    pub command: Option<Command>,
+    command: Option<Command>,
 }
 
 /// What can be asked for.
+//
+// Variants with arguments have no documentation here: as the program's help it would take the place of the arguments' own.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+enum Command {
     /// Opens the sandbox on a scene.
     Open {
         /// Name of a shipped scene, or path of a scene file
@@ -38,7 +40,7 @@ pub enum Command {
     },
     Run(run::RunArguments),
     Lab(lab::LabArguments),
-    /// Lists the shipped scenes: those of the sandbox, and those whose exact motion is known.
+    /// Lists the shipped scenes: those of the sandbox, the hard cases, and those whose exact motion is stored.
     Scenes,
     Check(check::CheckArguments),
     Truth(truth::TruthArguments),
@@ -50,27 +52,27 @@ pub enum Command {
 #[command(allow_negative_numbers = true)]
 pub struct ShotArguments {
     /// Name of a shipped scene, or path of a scene file
-    pub scene: OsString,
+    scene: OsString,
     /// The picture to write, a PNG file
     #[arg(value_parser = numbers::png())]
-    pub file: PathBuf,
+    file: PathBuf,
     /// Simulated time of the picture [s]
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = numbers::seconds)]
-    pub at: f64,
+    at: f64,
     /// Width and height [pixels]
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x800", value_parser = numbers::size)]
-    pub size: [u32; 2],
+    size: [u32; 2],
     #[arg(long, default_value = "dark", value_parser = ["dark", "light"])]
-    pub theme: String,
+    theme: String,
     /// Draw the whole sandbox, panels included
     #[arg(long)]
-    pub window: bool,
+    window: bool,
     /// Draw the truth as well, translucently
     #[arg(long)]
-    pub ghost: bool,
+    ghost: bool,
     /// Draw beside it the same scene by this accuracy, 1e-14 to 0.1
     #[arg(long, value_name = "TOL", value_parser = numbers::accuracy)]
-    pub beside: Option<f64>,
+    beside: Option<f64>,
 }
 
 /// Does what was asked for.

@@ -111,7 +111,9 @@ pub(crate) const NO_ROTOR: u32 = u32::MAX;
 /// All bodies, an array a property, in ascending order of id. Arrays are public for reading; the world keeps them consistent.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bodies {
+    /// Ids, ascending.
     pub id: Vec<Id>,
+    /// What may move each body.
     pub motion: Vec<Motion>,
     /// Centres [m].
     pub position: Vec<DVec2>,
@@ -123,9 +125,13 @@ pub struct Bodies {
     pub inverse_mass: Vec<f64>,
     /// Radii [m].
     pub radius: Vec<f64>,
+    /// Coefficients of restitution, 0 … 1.
     pub restitution: Vec<f64>,
+    /// Coefficients of friction, ≥ 0.
     pub friction: Vec<f64>,
+    /// Whether each body can touch anything at all.
     pub collides: Vec<bool>,
+    /// Collision groups; bodies of the same one other than 0 do not touch each other.
     pub group: Vec<u32>,
     /// Index of the body's rotation in `rotors`, or `NO_ROTOR`.
     pub(crate) rotor: Vec<u32>,

@@ -7,7 +7,14 @@ use super::Id;
 pub enum EngineError {
     /// A number is NaN, infinite or outside the range in which double precision can work with it.
     #[error("{what} is {value}, but must be {expected}")]
-    BadValue { what: &'static str, value: f64, expected: &'static str },
+    BadValue {
+        /// The quantity in words, such as "spring damping".
+        what: &'static str,
+        /// What was handed in.
+        value: f64,
+        /// The range that is accepted, in words and with its unit.
+        expected: &'static str,
+    },
     /// A body that does not exist (any more).
     #[error("there is no body {0}: it was removed or never existed")]
     NoBody(Id),

@@ -23,8 +23,9 @@ pub enum Integrator {
     Rattle,
     /// The classical Runge–Kutta method with the constraints solved for in every stage: order 4.
     RungeKutta4,
-    /// Symplectic Runge–Kutta–Nyström methods for islands of springs without dampers.
+    /// Symplectic Runge–Kutta–Nyström method for islands of springs without dampers: order 4.
     Nystrom4,
+    /// One of that kind with more kicks and drifts: order 6, 11 evaluations of the forces a step instead of 6.
     Nystrom6,
     /// Radau's implicit collocation with the constraints among its equations: order 5, damps what it cannot follow.
     Radau3,
@@ -215,7 +216,9 @@ pub struct Method {
     pub substeps: u32,
     /// Solver sweeps a substep.
     pub iterations: u32,
+    /// How positions and velocities are carried through a substep, or islands through a step.
     pub integrator: Integrator,
+    /// How constraints and contacts are solved in a substep; without effect on islands that are carried whole.
     pub solver: Solver,
     /// Start each solve from the last multipliers (PGS only; a projection has none to start from).
     pub warm_start: bool,

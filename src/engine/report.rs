@@ -7,11 +7,17 @@ use super::method::Integrator;
 /// The stages of a substep, in order, as in the loop of `step.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
+    /// Gravity, springs, dampers, drag and the grip are summed.
     Forces,
+    /// The integrator carries the state on as if nothing constrained it.
     Predict,
+    /// Broad and narrow phase find what touches or is about to.
     Detect,
+    /// Rows of constraints and contacts are set up from the state.
     Assemble,
+    /// Rows are solved, in islands that are carried whole as well.
     Solve,
+    /// Positions are carried to the end, and forces and contacts kept.
     Update,
 }
 
@@ -52,7 +58,9 @@ impl std::fmt::Display for Divergence {
 pub struct StepReport {
     /// Number of the step just taken (the world's tick after it).
     pub tick: u64,
+    /// Bodies in the world, those that never move included.
     pub bodies: usize,
+    /// Rods, ropes, springs and pins in the world.
     pub constraints: usize,
     /// Scalar rows in the solver, contacts' two each included.
     pub rows: usize,
@@ -68,18 +76,21 @@ pub struct StepReport {
     pub events: u32,
     /// Substeps of what can touch; 0 if all is carried by islands.
     pub substeps: u32,
-    /// Steps of islands carried whole, the largest number of one island, and those taken back, all islands together.
+    /// Steps of islands carried whole, the largest number of one island.
     pub island_steps: u32,
+    /// Steps of islands that were taken back, all islands together.
     pub retries: u32,
-    /// What carried the largest island in this step, and the matrix of its constraints; none without islands or rows.
+    /// What carried the largest island in this step; `None` without islands.
     pub integrator: Option<Integrator>,
+    /// The matrix of that island's constraints; `None` without islands or rows.
     pub matrix: Option<Path>,
     /// Highest order of an island's steps.
     pub order: u32,
     /// Estimate of the local error of this step, in parts of an island's size; 0 if nothing estimates it.
     pub local_error: f64,
-    /// Worst ‖b − A x‖ / ‖b‖ of the islands' solves, and most sweeps of one; 0 with the sparse LDLᵀ, which is not watched.
+    /// Worst ‖b − A x‖ / ‖b‖ of the islands' solves; 0 with the sparse LDLᵀ, which is not watched.
     pub linear_residual: f64,
+    /// Most sweeps of one solve; 0 with methods that do not sweep.
     pub sweeps: u32,
     /// Rows that depend on others and were dropped.
     pub redundant: usize,
@@ -99,4 +110,11 @@ pub struct StepReport {
     pub step_us: f64,
     /// Set if the step was taken back: the world then is as it was before it.
     pub divergence: Option<Divergence>,
+}
+
+impl StepReport {
+    /// Whether a step by accuracy did not keep it everywhere: something went through the substeps, or was carried less accurately than asked.
+    pub fn fell_short(&self) -> bool {
+        self.substeps > 0 || self.lapsed > 0
+    }
 }

@@ -9,14 +9,25 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Shape {
     /// A line without thickness, solid from both sides.
-    Segment { from: DVec2, to: DVec2 },
+    Segment {
+        /// One end [m].
+        from: DVec2,
+        /// The other end [m]; the same point makes the wall a point.
+        to: DVec2,
+    },
     /// A solid box with sides along the axes.
-    Box { min: DVec2, max: DVec2 },
+    Box {
+        /// Lower left corner [m].
+        min: DVec2,
+        /// Upper right corner [m], beyond `min` in both directions.
+        max: DVec2,
+    },
 }
 
 /// Something immovable that bodies touch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Wall {
+    /// Where it is, and how it is bounded.
     pub shape: Shape,
     /// Coefficient of restitution, 0 … 1.
     pub restitution: f64,

@@ -23,6 +23,7 @@ pub enum Touching {
 pub struct Contact {
     /// Dense index of the first body.
     pub a: u32,
+    /// What that body touches.
     pub b: Touching,
     /// Where they touch, between the two surfaces [m].
     pub point: DVec2,
@@ -165,10 +166,12 @@ impl World {
         self.tuning
     }
 
+    /// All bodies, an array a property; a body's place in them is its dense index.
     pub fn bodies(&self) -> &Bodies {
         &self.bodies
     }
 
+    /// All constraints, an array a property; a constraint's place in them is its dense index.
     pub fn constraints(&self) -> &Constraints {
         &self.constraints
     }
@@ -183,6 +186,7 @@ impl World {
         &self.wall_ids
     }
 
+    /// The hand's hold on a body; `None` if nothing is held.
     pub fn grip(&self) -> Option<&Grip> {
         self.grip.as_ref()
     }

@@ -10,6 +10,7 @@ pub struct WriteError {
     pub found: String,
     /// What to do about it: a whole sentence.
     pub mend: &'static str,
+    /// The system's kind of error; `InvalidInput` for what is refused before the system is asked.
     pub kind: ErrorKind,
 }
 

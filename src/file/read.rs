@@ -7,15 +7,22 @@ use std::path::Path;
 /// Why a file is not read.
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
+    /// The path leads to a folder.
     #[error("a folder")]
     Folder,
+    /// A pipe or a device, which could make a reader wait and may act on being opened.
     #[error("a pipe or a device")]
     Special,
     /// What the system shows as a file and makes up as it is read, perhaps without end.
     #[error("a pseudo file of the system")]
     Pseudo,
+    /// The file has more bytes than the caller takes.
     #[error("a file of more than {} MB", limit / 1024 / 1024)]
-    Large { limit: u64 },
+    Large {
+        /// Most bytes that are taken.
+        limit: u64,
+    },
+    /// What the system says: no such file, no permission, a broken disk.
     #[error("{0}")]
     System(#[from] std::io::Error),
 }

@@ -110,7 +110,9 @@ pub fn check_writable(path: &Path) -> Result<(), WriteError> {
 /// Where bytes go that somebody named a place for: a file that appears whole, or a pipe or a device, which take them as
 /// they come.
 pub enum Sink {
+    /// A file that is not there before it is committed.
     Whole(WholeFile),
+    /// A pipe or a device; what was written stays written.
     Stream(File),
 }
 

@@ -3,6 +3,7 @@
 /// What the clock counts, for a report.
 #[cfg(unix)]
 pub const CLOCK: &str = "CPU time of the measuring thread";
+/// What the clock counts, for a report.
 #[cfg(not(unix))]
 pub const CLOCK: &str = "time on the wall: this system tells no CPU time of a thread";
 

@@ -34,10 +34,12 @@ impl Front {
         Front { points: front }
     }
 
+    /// The points, the cheapest and least accurate first.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
+    /// Whether this very point, with all its figures, is on the front.
     pub fn contains(&self, point: &Point) -> bool {
         self.points.contains(point)
     }

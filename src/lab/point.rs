@@ -11,18 +11,22 @@ use std::fmt;
 pub struct Point {
     /// Name of a shipped scene, or path of a scene file.
     pub scene: String,
+    /// What the world was stepped with.
     pub method: Family,
     /// Steps a second [Hz].
     pub hz: f64,
     /// Knobs that the method does not have are empty, see [`Setting`].
     pub substeps: Option<u32>,
+    /// Sweeps a substep; empty for methods that do not sweep.
     pub iterations: Option<u32>,
+    /// Wanted accuracy, in parts of an island's size; empty for methods without one.
     pub tolerance: Option<f64>,
     /// CPU time per simulated second [µs/s].
     pub cpu_us_per_second: f64,
     /// RMS distance to the reference in parts of the scene's length, never below what the reference is known to; empty if the
     /// run diverged or there is no reference.
     pub error: Option<f64>,
+    /// What the error was measured against, or why there is none.
     pub error_kind: ErrorKind,
     /// Worst violation of a rod, rope or pin at any sample [m].
     pub violation_max: f64,
@@ -32,6 +36,7 @@ pub struct Point {
 }
 
 impl Point {
+    /// The method and its knobs, without what was measured.
     pub fn setting(&self) -> Setting {
         let Point { method: family, hz, substeps, iterations, tolerance, .. } = *self;
         Setting { family, hz, substeps, iterations, tolerance }
@@ -43,6 +48,7 @@ impl Point {
 pub enum ErrorKind {
     /// The converged motion stored in the program.
     Stored,
+    /// A formula that the scene names.
     ClosedForm,
     /// A refined run that agrees with a coarser one to so much, in parts of the scene's length.
     Converged(f64),

@@ -12,6 +12,7 @@ const ROUNDING: f64 = 1e-16;
 /// A motion that is known well enough to compare others with, sampled [`SAMPLES_PER_SECOND`] times a second from 0 on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
+    /// How the motion became known.
     pub source: Source,
     /// RMS distance from the true motion that it may have, in parts of `length`: the distance of the two finest runs.
     pub known_to: f64,
@@ -28,6 +29,7 @@ pub struct Reference {
 pub enum Source {
     /// The converged motion stored in the program.
     Stored,
+    /// A formula that the scene names.
     ClosedForm,
     /// Runs of the engine's most accurate method that agree.
     Refined,

@@ -35,16 +35,33 @@ pub struct LevelReport {
 /// Why there is no reference.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoReference {
+    /// The two finest runs part before a quarter of the time.
     #[error("{0}")]
     Lost(Lost),
+    /// A run left the range of numbers in which it means anything.
     #[error("no reference: the most accurate method diverged after {after:.1} s")]
-    Diverged { after: f64 },
+    Diverged {
+        /// Simulated time [s].
+        after: f64,
+    },
+    /// Either of the first two runs took ten times the budget.
     #[error("no reference: two runs do not fit into {seconds:.1} s; give more time, or compare over fewer seconds")]
-    TooSlow { seconds: f64 },
+    TooSlow {
+        /// The budget [s].
+        seconds: f64,
+    },
+    /// The samples of three runs would take too much memory.
     #[error("no reference: {bodies} bodies over {seconds} s are too much to keep; compare over fewer seconds")]
-    TooLarge { bodies: usize, seconds: f64 },
+    TooLarge {
+        /// Bodies of the world.
+        bodies: usize,
+        /// Simulated time that was asked for [s].
+        seconds: f64,
+    },
+    /// Somebody asked to stop.
     #[error("no reference: stopped before it had converged")]
     Cancelled,
+    /// The engine refuses the method.
     #[error("no reference: {0}")]
     Engine(#[from] EngineError),
 }

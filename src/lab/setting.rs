@@ -90,11 +90,15 @@ impl<'de> Deserialize<'de> for Family {
 /// A family with its knobs set. A knob that is not given is the scene's own, and of no effect unless something touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
+    /// Which methods, and hence which knobs.
     pub family: Family,
     /// Steps a second [Hz].
     pub hz: f64,
+    /// Substeps a step; `None` leaves them to the scene.
     pub substeps: Option<u32>,
+    /// Sweeps of the solver a substep; `None` leaves them to the scene.
     pub iterations: Option<u32>,
+    /// Wanted accuracy, in parts of an island's size; `None` leaves it to the scene.
     pub tolerance: Option<f64>,
 }
 

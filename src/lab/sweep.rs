@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 /// What a sweep tries, and how much time it may take.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepOptions {
+    /// Which methods are tried.
     pub families: Vec<Family>,
     /// Steps a second at which everything is tried [Hz], see [`rate_fits`]; empty for 60 Hz and a few settings at 30 and 240 Hz.
     pub rates: Vec<f64>,
@@ -51,10 +52,13 @@ pub fn rate_fits(hz: f64) -> bool {
 /// What came of the next setting.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
+    /// It was measured.
     Point(Point),
+    /// It was not measured, or what was measured is of no use.
     Skipped(Setting, Skip),
     /// Nothing was recorded; the next call tries the same setting again.
     Cancelled,
+    /// Nothing is left to try, or the budget is spent.
     Finished,
 }
 
@@ -65,15 +69,18 @@ pub enum Skip {
     NotTaken,
     /// Its knob changes nothing: the motion is that of a setting before.
     Same,
+    /// It takes longer than a run may, or costs more than one of its family that did.
     TooSlow,
+    /// The engine does not take the method.
     Refused(EngineError),
 }
 
 /// How much is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Settings tried or skipped, and all.
+    /// Settings tried or skipped.
     pub done: usize,
+    /// Settings of the whole sweep.
     pub total: usize,
     /// Estimate of what the rest takes [s].
     pub seconds_left: f64,
@@ -136,10 +143,12 @@ impl Sweep {
         &self.points
     }
 
+    /// What errors are measured against; `None` if nothing is known of the motion.
     pub fn reference(&self) -> Option<&Reference> {
         self.reference.as_deref()
     }
 
+    /// How much is done, and an estimate of the rest.
     pub fn progress(&self) -> Progress {
         let rest = self.candidates.iter().skip(self.next).filter(|setting| !self.is_known(setting));
         let most = self.options.run_limit.as_secs_f64() * (self.options.runs + 1) as f64;

@@ -6,6 +6,7 @@ const MOST_DECIMALS: i32 = 6;
 /// A measured or calculated value and how far it may be from the truth, in the same unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertain {
+    /// The best estimate; NaN or infinite is shown as such, without an error.
     pub value: f64,
     /// ≥ 0; `None` where nothing is known about it.
     pub error: Option<f64>,

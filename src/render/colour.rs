@@ -36,8 +36,10 @@ impl Colour {
 /// Light or dark.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theme {
+    /// For a dark window; the canvas is darker than every panel.
     #[default]
     Dark,
+    /// For a light window.
     Light,
 }
 
@@ -46,11 +48,15 @@ pub enum Theme {
 pub struct Palette {
     /// The empty canvas.
     pub background: Colour,
+    /// Lines between the labelled ones.
     pub grid_minor: Colour,
+    /// Lines with a label.
     pub grid_major: Colour,
     /// The lines x = 0 and y = 0.
     pub axis: Colour,
+    /// The inside of boxes.
     pub wall_fill: Colour,
+    /// The slanted lines on the inside of boxes.
     pub wall_hatch: Colour,
     /// Edges of walls, and segment walls.
     pub wall_edge: Colour,
@@ -58,16 +64,21 @@ pub struct Palette {
     pub bodies: [Colour; 6],
     /// Particles within a rope, a bridge, a cloth.
     pub node: Colour,
+    /// Mixed into the fill of a body for its edge.
     pub body_stroke: Colour,
     /// Static bodies and anchors in the world.
     pub fixed: Colour,
+    /// Edges of static bodies and anchors, and the ring in kinematic bodies.
     pub fixed_stroke: Colour,
     /// Rods, ropes and springs without a force, or with the map switched off.
     pub link: Colour,
     /// Selection, and what is about to be made.
     pub accent: Colour,
+    /// The outline of what lies under the cursor.
     pub hover: Colour,
+    /// Where bodies touch, and the tick for the force.
     pub contact: Colour,
+    /// Arrows of the velocities.
     pub velocity: Colour,
     /// The truth, translucent.
     pub ghost: Colour,

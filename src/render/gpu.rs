@@ -6,31 +6,51 @@ use wgpu::Backends;
 /// A graphics device with the queue that feeds it.
 #[derive(Clone, Debug)]
 pub struct Gpu {
+    /// The way to the system's graphics interfaces; the window's surface belongs to it.
     pub instance: wgpu::Instance,
+    /// The graphics card, or what draws in its place.
     pub adapter: wgpu::Adapter,
+    /// Makes buffers, textures and pipelines.
     pub device: wgpu::Device,
+    /// Takes uploads and command buffers, in order.
     pub queue: wgpu::Queue,
 }
 
 /// Why there is no graphics device.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
+    /// `WGPU_BACKEND` as it is set.
     #[error(
         "WGPU_BACKEND={0:?} names no graphics interface of this system: set it to vulkan or gl (on Windows dx12, on macOS metal), or unset it"
     )]
     UnknownBackend(String),
+    /// No interface offers an adapter that can draw to the target.
     #[error(
         "no graphics adapter was found (tried {tried}): install a graphics driver; on Debian or Ubuntu the package mesa-vulkan-drivers (or libegl1, for OpenGL) also draws without a graphics card"
     )]
-    NoAdapter { tried: String },
+    NoAdapter {
+        /// The interfaces that were asked, separated by commas.
+        tried: String,
+    },
+    /// There is an adapter, but no device on it.
     #[error("the graphics adapter {adapter:?} refused to start: {reason}; update its driver, or try WGPU_BACKEND=gl")]
-    NoDevice { adapter: String, reason: String },
+    NoDevice {
+        /// The adapter's name.
+        adapter: String,
+        /// What the driver says.
+        reason: String,
+    },
+    /// The adapter can draw, but not to the window.
     #[error("the graphics adapter {adapter:?} offers no picture format for this window; try WGPU_BACKEND=gl")]
-    NoFormat { adapter: String },
+    NoFormat {
+        /// The adapter's name.
+        adapter: String,
+    },
 }
 
 /// What the window needs beside the device.
 pub struct WindowSurface {
+    /// What is drawn to; to be configured at every change of the window's size.
     pub surface: wgpu::Surface<'static>,
     /// A format that is not sRGB, as [`super::Renderer`] and egui want it, wherever the adapter has one.
     pub format: wgpu::TextureFormat,

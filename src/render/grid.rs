@@ -32,13 +32,16 @@ impl GridStep {
 /// The axis on which a coordinate is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
+    /// To the right.
     X,
+    /// Upwards.
     Y,
 }
 
 /// A labelled line of the grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridLabel {
+    /// Which coordinate the text gives: x for upright lines.
     pub axis: Axis,
     /// Where the line crosses the canvas [points from its left or upper edge].
     pub at: f64,

@@ -12,26 +12,47 @@ pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// A finished picture, row by row from the top, four bytes a pixel: red, green, blue, opacity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
+    /// Pixels of a row.
     pub width: u32,
+    /// Rows.
     pub height: u32,
+    /// 4 × width × height bytes.
     pub rgba: Vec<u8>,
 }
 
 /// Why there is no picture, or no file of it.
 #[derive(Debug, thiserror::Error)]
 pub enum OffscreenError {
+    /// A side is 0, or more than the adapter can draw.
     #[error("a picture of {width} × {height} pixels cannot be drawn here: each side must be between 1 and {largest}")]
-    Size { width: u32, height: u32, largest: u32 },
+    Size {
+        /// As asked for [pixels].
+        width: u32,
+        /// As asked for [pixels].
+        height: u32,
+        /// Largest side of a texture of this adapter [pixels].
+        largest: u32,
+    },
+    /// Drawn, but not brought into memory; the reason in words.
     #[error("the picture could not be read back from the graphics adapter: {0}")]
     ReadBack(String),
-    #[error("the picture could not be written to {}: {source}", named(path))]
-    Write { path: PathBuf, source: WriteError },
+    /// There is a picture, but no file of it.
+    #[error("the picture could not be written to {}: {why}", named(path))]
+    Write {
+        /// Where it was to be.
+        path: PathBuf,
+        /// What is in the way, and how to mend it.
+        why: WriteError,
+    },
 }
 
 /// What a hook draws with: the device, the open encoder, and the target that holds the scene.
 pub struct Canvas<'a> {
+    /// The device that the picture is drawn with.
     pub gpu: &'a Gpu,
+    /// Takes passes that come after the scene's own.
     pub encoder: &'a mut wgpu::CommandEncoder,
+    /// The picture so far, of [`FORMAT`].
     pub target: &'a wgpu::TextureView,
 }
 
@@ -144,7 +165,7 @@ impl Image {
 
     /// Writes a PNG, or says why it cannot.
     pub fn write_png(&self, path: &Path) -> Result<(), OffscreenError> {
-        let failed = |source: WriteError| OffscreenError::Write { path: path.to_owned(), source };
+        let failed = |why: WriteError| OffscreenError::Write { path: path.to_owned(), why };
         let mut bytes = Vec::new();
         self.encode(&mut bytes).map_err(|error| failed(std::io::Error::from(error).into()))?;
         let mut file = Sink::create(path).map_err(failed)?;

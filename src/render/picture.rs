@@ -20,7 +20,9 @@ use std::ops::Range;
 /// Consecutive marks of one kind: one draw call.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
+    /// Which of the picture's lists of marks is drawn from.
     pub kind: MarkKind,
+    /// Indices into that list.
     pub marks: Range<u32>,
 }
 

@@ -17,6 +17,7 @@ pub const VERSION: u32 = 1;
 pub struct Document {
     /// Version of the format; always written, and first.
     pub version: u32,
+    /// Heading for the user; the scene's name if empty.
     #[serde(default, skip_serializing_if = "is_default")]
     pub title: String,
     /// One or two sentences for the user: what it shows, what to try.
@@ -32,12 +33,16 @@ pub struct Document {
     /// What a run of it must keep to, as it opens; shown beside its name and tried by a test.
     #[serde(default, skip_serializing_if = "is_default")]
     pub pass: Option<Pass>,
+    /// The surroundings, and how the world is stepped.
     #[serde(default, skip_serializing_if = "is_default")]
     pub settings: Settings,
+    /// Single bodies, built first and in this order.
     #[serde(default, skip_serializing_if = "is_default")]
     pub bodies: Vec<BodyEntry>,
+    /// What never moves and can be touched.
     #[serde(default, skip_serializing_if = "is_default")]
     pub walls: Vec<WallEntry>,
+    /// Ropes, cloths, piles and the like: many bodies from one entry.
     #[serde(default, skip_serializing_if = "is_default")]
     pub generators: Vec<Generator>,
     /// Built last, so that they can refer to what the generators made.
@@ -95,17 +100,27 @@ pub struct Settings {
     pub gravity: DVec2,
     /// Rate at which free motion dies away [1/s].
     pub drag: f64,
+    /// Values that stand in for those of all contacts and springs.
     pub tuning: Tuning,
     /// Steps per simulated second [Hz].
     pub hz: f64,
+    /// Substeps a step, 1 … 1000.
     pub substeps: u32,
+    /// Solver sweeps a substep, 1 … 100,000.
     pub iterations: u32,
+    /// How positions and velocities are carried on.
     pub integrator: Integrator,
+    /// How constraints and contacts are solved within a substep.
     pub solver: Solver,
+    /// Whether a solve starts from the last multipliers.
     pub warm_start: bool,
+    /// Part of the position errors that is fed back in a substep, 0 … 1.
     pub baumgarte: f64,
+    /// Whether the plan chooses methods and steps for the wanted accuracy.
     pub automatic: bool,
+    /// What solves the rows of islands that are carried whole.
     pub linear: LinearSolver,
+    /// Wanted error after a second or so, in parts of an island's size, 1e-14 … 0.1.
     pub accuracy: f64,
 }
 
@@ -172,6 +187,7 @@ pub struct BodyFields {
     /// By which constraints refer to it.
     #[serde(skip_serializing_if = "is_default")]
     pub name: Option<String>,
+    /// What may move it: everything by default.
     #[serde(skip_serializing_if = "is_default")]
     pub motion: Motion,
     /// Centre [m].
@@ -193,9 +209,12 @@ pub struct BodyFields {
     pub density: Option<f64>,
     /// [m]; 0 for a point, which never touches anything.
     pub radius: f64,
+    /// Coefficient of restitution, 0 … 1; a contact takes the larger of the two.
     #[serde(skip_serializing_if = "is_zero")]
     pub restitution: f64,
+    /// Coefficient of friction, 0 … 1000; a contact takes the geometric mean of the two.
     pub friction: f64,
+    /// Whether it can touch anything at all.
     #[serde(skip_serializing_if = "is_true")]
     pub collides: bool,
     /// Bodies of the same group other than 0 do not touch each other.
@@ -230,46 +249,67 @@ impl Default for BodyFields {
 pub enum ConstraintEntry {
     /// Keeps its ends at a distance of `length` [m].
     Rod {
+        /// First end.
         a: End,
+        /// Where on the disc `a` it holds, in its axes from its centre [m]; the centre if not given.
         #[serde(default, skip_serializing_if = "is_default")]
         at_a: Option<DVec2>,
+        /// Second end.
         b: End,
+        /// Where on the disc `b` it holds, in its axes from its centre [m]; the centre if not given.
         #[serde(default, skip_serializing_if = "is_default")]
         at_b: Option<DVec2>,
+        /// Distance that is kept [m].
         #[serde(default, skip_serializing_if = "is_default")]
         length: Option<f64>,
     },
     /// Keeps its ends within a distance of `length` [m].
     Rope {
+        /// First end.
         a: End,
+        /// Where on the disc `a` it holds, in its axes from its centre [m]; the centre if not given.
         #[serde(default, skip_serializing_if = "is_default")]
         at_a: Option<DVec2>,
+        /// Second end.
         b: End,
+        /// Where on the disc `b` it holds, in its axes from its centre [m]; the centre if not given.
         #[serde(default, skip_serializing_if = "is_default")]
         at_b: Option<DVec2>,
+        /// Largest distance [m].
         #[serde(default, skip_serializing_if = "is_default")]
         length: Option<f64>,
     },
     /// Pulls its ends to a distance of `rest` [m] with `stiffness` [N/m] and `damping` [N·s/m].
     Spring {
+        /// First end.
         a: End,
+        /// Where on the disc `a` it holds, in its axes from its centre [m]; the centre if not given.
         #[serde(default, skip_serializing_if = "is_default")]
         at_a: Option<DVec2>,
+        /// Second end.
         b: End,
+        /// Where on the disc `b` it holds, in its axes from its centre [m]; the centre if not given.
         #[serde(default, skip_serializing_if = "is_default")]
         at_b: Option<DVec2>,
+        /// Distance at which it does not pull [m].
         #[serde(default, skip_serializing_if = "is_default")]
         rest: Option<f64>,
+        /// Force over elongation [N/m].
         stiffness: f64,
+        /// Force over the speed of elongation [N·s/m].
         #[serde(default, skip_serializing_if = "is_zero")]
         damping: f64,
     },
     /// Holds its ends together; they may turn about each other.
     Pin {
+        /// First end.
         a: End,
+        /// Where on the disc `a` it holds, in its axes from its centre [m]; the centre if not given.
         #[serde(default, skip_serializing_if = "is_default")]
         at_a: Option<DVec2>,
+        /// Second end.
         b: End,
+        /// Where on the disc `b` it holds, in its axes from its centre [m]; the centre if not given.
         #[serde(default, skip_serializing_if = "is_default")]
         at_b: Option<DVec2>,
     },
@@ -325,27 +365,38 @@ impl<'de> Visitor<'de> for EndVisitor {
 pub enum WallEntry {
     /// A line without thickness, solid from both sides.
     Segment {
+        /// One end [m].
         from: DVec2,
+        /// The other end [m].
         to: DVec2,
+        /// Coefficient of restitution, 0 … 1.
         #[serde(default, skip_serializing_if = "is_zero")]
         restitution: f64,
+        /// Coefficient of friction, ≥ 0; 0.5 if not given.
         #[serde(default = "default_friction")]
         friction: f64,
     },
     /// Segments from point to point.
     Line {
+        /// The points [m], at least two.
         points: Vec<DVec2>,
+        /// Coefficient of restitution of every segment, 0 … 1.
         #[serde(default, skip_serializing_if = "is_zero")]
         restitution: f64,
+        /// Coefficient of friction of every segment, ≥ 0; 0.5 if not given.
         #[serde(default = "default_friction")]
         friction: f64,
     },
     /// A solid box with sides along the axes, from its lower left corner `min` to its upper right corner `max`.
     Box {
+        /// Lower left corner [m].
         min: DVec2,
+        /// Upper right corner [m].
         max: DVec2,
+        /// Coefficient of restitution, 0 … 1.
         #[serde(default, skip_serializing_if = "is_zero")]
         restitution: f64,
+        /// Coefficient of friction, ≥ 0; 0.5 if not given.
         #[serde(default = "default_friction")]
         friction: f64,
     },

@@ -10,7 +10,9 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}", escaped(&format!("{place}: {problem}")))]
 pub struct SceneError {
+    /// Where in the file or the document.
     pub place: Place,
+    /// What stands there, what should, and how to mend it.
     pub problem: Box<Problem>,
 }
 
@@ -20,7 +22,14 @@ pub enum Place {
     /// The file as a whole.
     File(String),
     /// A place in its text; line and column count from 1, the column in characters.
-    Text { file: String, line: usize, column: usize },
+    Text {
+        /// The scene's name or path.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Character of the line, from 1.
+        column: usize,
+    },
     /// A part of a document that has no text, such as `bodies[3].mass`.
     Part(String),
 }

@@ -40,9 +40,13 @@ pub struct Setup {
     pub name: String,
     /// The file that it was read from, if it was.
     pub file: Option<PathBuf>,
+    /// Heading for the user; the name where the file has none.
     pub title: String,
+    /// One or two sentences for the user: what it shows, what to try; may be empty.
     pub about: String,
+    /// The world at time 0.
     pub world: World,
+    /// How the scene asks to be stepped.
     pub method: Method,
     /// Names that the file gives to bodies, of those that have one.
     pub names: BTreeMap<Id, String>,

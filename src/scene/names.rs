@@ -11,7 +11,12 @@ pub enum Layout {
     /// `name.0` to `name.(n − 1)`.
     Line(usize),
     /// `name.column.row`, row by row from the top.
-    Grid { columns: usize, rows: usize },
+    Grid {
+        /// Nodes in a row.
+        columns: usize,
+        /// Nodes in a column.
+        rows: usize,
+    },
 }
 
 impl Layout {

@@ -12,7 +12,9 @@ pub enum State {
     /// All limits are kept so far, and the time is not over.
     #[default]
     Running,
+    /// All limits were kept until the time was over.
     Passed,
+    /// A limit is broken, or the run diverged; it is measured on until the time is over.
     Failed,
     /// The scene was changed by hand, so that the run is no trial any more.
     Void,
@@ -33,6 +35,7 @@ impl State {
 /// A limit and what its value has been so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
+    /// What must not be exceeded, and of what.
     pub limit: Limit,
     /// In [`Limit::unit`]; NaN where nothing can be compared yet.
     pub value: f64,
@@ -48,10 +51,13 @@ impl Line {
 /// What a trial has come to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdict {
+    /// Whether it passed, failed, or goes on.
     pub state: State,
-    /// Simulated time [s], and how long the trial lasts.
+    /// Simulated time so far [s].
     pub time: f64,
+    /// Simulated time that the trial lasts [s].
     pub seconds: f64,
+    /// A line a limit, in the order of the scene's pass.
     pub lines: Vec<Line>,
 }
 

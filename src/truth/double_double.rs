@@ -15,6 +15,7 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
+    /// +0, of which both parts are +0.
     pub const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
 
     /// The nearest double.

@@ -67,11 +67,24 @@ impl Trajectory {
 pub enum TruthError {
     /// The scene holds what the reference has no equations for.
     #[error("{what}: the reference solver knows particles, rods and springs that touch nothing")]
-    Unfit { what: String },
+    Unfit {
+        /// What the reference has no equations for, in words.
+        what: String,
+    },
     /// The scene is not what the closed form that it names is for.
     #[error("{what}: the closed form {form} is for {holds}")]
-    Misfit { form: &'static str, what: String, holds: &'static str },
+    Misfit {
+        /// Name of the closed form.
+        form: &'static str,
+        /// What does not fit it, in words.
+        what: String,
+        /// What the closed form is for, in words.
+        holds: &'static str,
+    },
     /// No step is small enough, as at a collision of two masses or where rods contradict each other.
     #[error("at {time} s no step is small enough: the motion is singular there, or the rods contradict each other")]
-    Stalled { time: f64 },
+    Stalled {
+        /// Simulated time that was reached [s].
+        time: f64,
+    },
 }

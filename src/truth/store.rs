@@ -13,8 +13,10 @@ const VERSION: u32 = 1;
 /// Why bytes are no trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StoreError {
+    /// The bytes do not begin as those of this version do.
     #[error("not a stored trajectory, or one of another version: write it anew with `tautline truth`")]
     Unknown,
+    /// The beginning is right, but what follows is too short or too long.
     #[error("a stored trajectory that is cut short or damaged: write it anew with `tautline truth`")]
     Damaged,
 }

@@ -8,10 +8,13 @@ use egui::{Align2, FontId, Id, Key, Modal, Response, Role, ScrollArea, Sense, Te
 
 /// Lines in sight; the others are reached by scrolling.
 const LINES: f32 = 12.0;
+/// Height that is left to the field above them and to the window around [points].
+const MARGIN: f32 = 200.0;
 
 /// What was chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
+    /// To be carried out as by its key.
     Action(Action),
     /// The name of a scene.
     Scene(String),
@@ -20,9 +23,13 @@ pub enum Found {
 /// One line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
+    /// What is found by, shown first.
     pub name: String,
+    /// The first key of an action as shown to a user; empty if there is none, as for scenes.
     pub shortcut: String,
+    /// What choosing it does; searched too.
     pub help: String,
+    /// What choosing it gives.
     pub found: Found,
 }
 
@@ -93,8 +100,11 @@ pub fn show(ctx: &egui::Context, scenes: &[Shipped], state: &mut State) -> Optio
         if lines.is_empty() {
             widgets::note(ui, "Nothing found. Esc closes this list.");
         }
-        let height = LINES * (theme::ROW + 2.0 * theme::GRID);
-        widgets::scroll(ui, ScrollArea::vertical().max_height(height).auto_shrink([false, true]), |ui| {
+        let room = ui.ctx().content_rect().height() - MARGIN;
+        let height = (LINES * (theme::ROW + 2.0 * theme::GRID)).min(room);
+        // What is scrolled in a window of its own is given little room otherwise.
+        let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink([false, true]);
+        widgets::scroll(ui, area, |ui| {
             for (index, line) in lines.iter().enumerate() {
                 let response = row(ui, line, index == finder.chosen);
                 if follow && index == finder.chosen {

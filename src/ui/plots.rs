@@ -102,6 +102,18 @@ impl<const N: usize> Curves<N> {
         self.times.iter().zip(&self.values).filter(move |(_, values)| wanted(values)).map(|(time, _)| *time)
     }
 
+    /// The longest runs of points that are wanted, in the order of time.
+    fn parts(&self, wanted: impl Fn(&[f64; N]) -> bool) -> impl Iterator<Item = impl Iterator<Item = (f64, [f64; N])>> {
+        let mut from = 0;
+        std::iter::from_fn(move || {
+            let start = from + self.values[from..].iter().position(&wanted)?;
+            let length = self.values[start..].iter().position(|values| !wanted(values));
+            from = length.map_or(self.values.len(), |length| start + length);
+            let range = start..from;
+            Some(self.times[range.clone()].iter().copied().zip(self.values[range].iter().copied()))
+        })
+    }
+
     fn largest(&self, value: impl Fn(&[f64; N]) -> f64) -> f64 {
         self.values.iter().map(value).filter(|value| value.is_finite()).fold(0.0, f64::max)
     }
@@ -194,7 +206,10 @@ impl Plots {
     }
 
     fn local_error(&mut self, ui: &mut Ui, frame: &Frame) {
-        let curves = Curves::of(frame, Fold::Largest, |sample| [sample.local_error, sample.lapses as f64]);
+        let curves = Curves::of(frame, Fold::Largest, |sample| {
+            let fell_short = f64::from(u8::from(sample.fell_short));
+            [sample.local_error, fell_short]
+        });
         let wanted = frame.method.accuracy;
         self.local_error.update(curves.largest(|values| values[0]).max(wanted), Instant::now());
         let theme::Colours { series, weak, warning, .. } = theme::colours(ui);
@@ -203,7 +218,11 @@ impl Plots {
         let label = |mark: GridMark| format!("1e{}", mark.value);
         let map = |value: f64| value.max(1e-300).log10().max(low);
         plot(ui, "Local error plot", frame, Rise { range: [low, high], decades: true }, label, |plot| {
-            plot.line(Line::new("Local error", curves.line(0, map)).color(series[0]).width(1.5));
+            // Steps that nothing estimated leave a gap.
+            for part in curves.parts(|values| values[0] > 0.0) {
+                let points = part.map(|(time, values)| [time, map(values[0])]).collect();
+                plot.line(Line::new("Local error", PlotPoints::new(points)).color(series[0]).width(1.5));
+            }
             plot.hline(HLine::new("Wanted", map(wanted)).color(weak).style(LineStyle::dashed_loose()));
             // At the top, where no curve hides them.
             let lapsed: Vec<[f64; 2]> = curves.times_where(|values| values[1] > 0.0).map(|time| [time, high]).collect();
@@ -369,7 +388,7 @@ fn local_error_legend(ui: &mut Ui, frame: &Frame) {
     let help =
         "Wanted accuracy of the motion after a second or so: the dashed line. Each step has to stay well below it.";
     marked(ui, dashed(weak), "Wanted", &format!("{:.0e}", frame.method.accuracy), help);
-    let lapsed = frame.plots.read().iter().filter(|sample| sample.lapses > 0).count();
+    let lapsed = frame.plots.read().iter().filter(|sample| sample.fell_short).count();
     if lapsed > 0 {
         let help = "Steps of the last 20 s in which the accuracy was not kept: the marks along the top.";
         marked(ui, down_mark(warning), "Not kept", &format!("{lapsed} steps"), help);

@@ -4,10 +4,12 @@ use super::state::{Field, State};
 use super::{badge, theme, widgets};
 use crate::app::{Command, Frame};
 use crate::scene::Shipped;
+use crate::text::named;
 use crate::trial::Verdict;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Align, Key, Label, RichText, ScrollArea, TextEdit, Ui};
+use std::path::{Path, PathBuf};
 
 /// The sections "Scenes" and "Save as…".
 pub fn show(ui: &mut Ui, frame: &Frame, scenes: &[Shipped], state: &mut State, commands: &mut Vec<Command>) {
@@ -137,11 +139,41 @@ fn save(ui: &mut Ui, frame: &Frame, state: &mut State, commands: &mut Vec<Comman
         response.on_hover_text("File to write the scene to, as it stands; `tautline check` reads it too. [Ctrl-S]");
         let button = ui.button("Save as…").on_hover_text("Writes the scene as it stands to this file. [Ctrl-S]");
         if (entered || button.clicked()) && !state.save_path.trim().is_empty() {
-            commands.push(Command::SaveAs(state.save_path.trim().into()));
-            state.focus = Some(Field::Canvas);
+            save_to(state.save_path.trim().into(), frame, state, commands);
         }
     });
+    replace(ui, state, commands);
     if let Some(path) = &frame.saved {
         ui.add(Label::new(RichText::new(format!("Saved to {path}")).weak()).truncate());
     }
+}
+
+/// Saves, or asks first where another file would be lost.
+fn save_to(path: PathBuf, frame: &Frame, state: &mut State, commands: &mut Vec<Command>) {
+    if frame.would_replace(&path) {
+        state.replace = Some(path);
+        return;
+    }
+    commands.push(Command::SaveAs(path));
+    (state.replace, state.focus) = (None, Some(Field::Canvas));
+}
+
+/// Asks whether a file may be replaced, as long as its name stands in the field.
+fn replace(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
+    let typed = Path::new(state.save_path.trim());
+    state.replace = state.replace.take().filter(|path| path == typed);
+    let Some(path) = state.replace.clone() else { return };
+    let question = format!("{} is there already and is not this scene's file.", named(&path));
+    ui.add(Label::new(RichText::new(question).color(theme::colours(ui).warning)).wrap());
+    let answers = ui.horizontal(|ui| {
+        if ui.button("Replace it").on_hover_text("The file is lost; this scene takes its place.").clicked() {
+            commands.push(Command::SaveAs(path));
+            (state.replace, state.focus) = (None, Some(Field::Canvas));
+        }
+        if ui.button("Keep it").on_hover_text("Nothing is written. Type another name to save.").clicked() {
+            (state.replace, state.focus) = (None, Some(Field::SavePath));
+        }
+    });
+    // The section is the last one of its panel.
+    answers.response.scroll_to_me(Some(Align::BOTTOM));
 }

@@ -7,18 +7,23 @@ use crate::app::keys::Shown;
 use crate::engine::Method;
 use crate::trial::Verdict;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What the picture shows besides the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct View {
+    /// Where bodies touch, and the normal force [N].
     pub contacts: bool,
+    /// An arrow for the velocity of every body [m/s].
     pub velocities: bool,
+    /// Where bodies were, fading.
     pub trails: bool,
     /// Moving bodies coloured by their speed.
     pub speed: bool,
     /// Rods and springs coloured by their tension.
     pub tension: bool,
+    /// Lines at round distances, with units [m].
     pub grid: bool,
     /// The truth, drawn with the simulation.
     pub ghost: bool,
@@ -41,12 +46,18 @@ impl Default for View {
 /// The plots at the bottom.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PlotTab {
+    /// Kinetic, potential, elastic and total energy [J].
     #[default]
     Energy,
+    /// Worst violation of a constraint and deepest overlap [m].
     Violation,
+    /// Estimated error of each step, in parts of an island's size.
     LocalError,
+    /// From the truth and from the other method [m].
     Distance,
+    /// Time of a step, split by stage [µs].
     StepTime,
+    /// Error over cost of every method on this scene.
     Lab,
 }
 
@@ -76,8 +87,11 @@ impl PlotTab {
 /// A text field that is to take the keyboard in the next pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
+    /// Where a scene is found by name, or a file opened by path.
     SceneFilter,
+    /// Where the path to write to stands.
     SavePath,
+    /// Where an action is found by typing.
     ActionQuery,
     /// Not a text field: the scene itself.
     Canvas,
@@ -86,6 +100,7 @@ pub enum Field {
 /// The palette of actions while it is open.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Finder {
+    /// What was typed; empty finds everything.
     pub query: String,
     /// Which of the lines found is chosen.
     pub chosen: usize,
@@ -94,17 +109,23 @@ pub struct Finder {
 /// Everything of the kind.
 #[derive(Clone, Debug)]
 pub struct State {
+    /// Dark or light, for the panels and the scene alike.
     pub theme: Theme,
     /// All panels at once, for Tab.
     pub panels: bool,
+    /// Whether the user wants the plots.
     pub plots: bool,
-    /// The tools and the settings at the sides and the plots below, where the user wants it otherwise than the window has room.
+    /// The tools at the left, where the user wants them otherwise than the window has room; `None` leaves it to that.
     pub tools_panel: Option<bool>,
+    /// The settings at the right, likewise.
     pub settings_panel: Option<bool>,
+    /// The plots below, likewise.
     pub plots_panel: Option<bool>,
+    /// Which of the plots is in front.
     pub plot: PlotTab,
     /// The violation plot's axis in powers of ten.
     pub plot_log: bool,
+    /// What the picture of the scene shows.
     pub view: View,
     /// The same scene under another method, beside the simulation.
     pub rival: bool,
@@ -116,12 +137,19 @@ pub struct State {
     pub lab: Wanted,
     /// What the lab knows of the open scene before it is measured.
     pub lab_known: Known,
+    /// What was typed to find a scene or a file; empty lists all scenes.
     pub scene_filter: String,
     /// Opening of the scene that was last brought into sight in the list.
     pub listed: Option<u64>,
+    /// Where the scene is to be written, as typed.
     pub save_path: String,
+    /// A file of that name is there, and the user was asked whether it may be replaced.
+    pub replace: Option<PathBuf>,
+    /// Whether the list of shortcuts lies over everything.
     pub help: bool,
+    /// The palette of actions; `None` while it is closed.
     pub finder: Option<Finder>,
+    /// What is to take the keyboard in the next pass; `None` leaves it where it is.
     pub focus: Option<Field>,
 }
 
@@ -145,6 +173,7 @@ impl Default for State {
             scene_filter: String::new(),
             listed: None,
             save_path: "my scene.ron".into(),
+            replace: None,
             help: false,
             finder: None,
             focus: Some(Field::Canvas),

@@ -51,7 +51,7 @@ fn kept(ui: &mut Ui, frame: &Frame) {
     let colours = theme::colours(ui);
     let (steps, lapsed) = {
         let samples = frame.plots.read();
-        (samples.len(), samples.iter().filter(|sample| sample.lapses > 0).count())
+        (samples.len(), samples.iter().filter(|sample| sample.fell_short).count())
     };
     let (text, colour) = match lapsed {
         0 => ("kept".to_owned(), colours.text),

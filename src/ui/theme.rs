@@ -27,8 +27,10 @@ pub const SMALL: f32 = 11.0;
 /// Light letters on dark grey, or dark on light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theme {
+    /// Light letters on dark grey.
     #[default]
     Dark,
+    /// Dark letters on light grey.
     Light,
 }
 
@@ -36,22 +38,29 @@ pub enum Theme {
 /// belongs to the physics; the accent alone marks what is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colours {
+    /// Behind everything in the panels, menus and dialogs.
     pub panel: Color32,
     /// Behind a value that can be edited.
     pub field: Color32,
+    /// Behind what lies under the pointer, is pressed or open.
     pub hover: Color32,
     /// Lines between panels and around fields.
     pub line: Color32,
+    /// Letters and icons of usual weight.
     pub text: Color32,
     /// Labels and notes.
     pub weak: Color32,
+    /// Headings, and letters under the pointer.
     pub strong: Color32,
+    /// What is chosen, switched on or under way.
     pub accent: Color32,
     /// Letters and icons on the accent.
     pub on_accent: Color32,
+    /// What a user should look at, without being wrong.
     pub warning: Color32,
     /// What passed.
     pub good: Color32,
+    /// What failed.
     pub error: Color32,
     /// Behind the fault banner and the labels that lie on the scene.
     pub overlay: Color32,

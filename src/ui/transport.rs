@@ -156,6 +156,7 @@ fn title(ui: &mut Ui, frame: &Frame, buttons: f32) {
             return;
         }
         let first = scene.about.split(". ").next().unwrap_or_default();
-        ui.add(Label::new(RichText::new(first).color(colours.weak)).truncate()).on_hover_text(&scene.about);
+        let about = Label::new(RichText::new(first).color(colours.weak)).truncate().show_tooltip_when_elided(false);
+        ui.add(about).on_hover_text(&scene.about);
     });
 }

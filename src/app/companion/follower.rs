@@ -24,10 +24,12 @@ impl Follower {
         Ok(Follower { world, stepper, plan_text: PlanText::default(), report: StepReport::default() })
     }
 
+    /// The world as it stands after the last step or input.
     pub fn world(&self) -> &World {
         &self.world
     }
 
+    /// What it is stepped with; its rate is that of the simulation.
     pub fn method(&self) -> &Method {
         self.stepper.method()
     }

@@ -12,12 +12,15 @@ pub enum Input {
     Gravity(DVec2),
     /// [1/s]
     Drag(f64),
+    /// The values that stand in for those of all contacts and springs.
     Tuning(Tuning),
     /// A hand takes hold.
     Hold(Grip),
     /// The hand moves to a point [m]; the force of the hold is the follower's own.
     Move(DVec2),
+    /// The hand lets go; the body keeps its velocity.
     Release,
+    /// Something is added, changed or removed.
     Edit(Edit),
     /// Steps a second from now on [Hz]. How the simulation is stepped is not part of its motion.
     Rate(f64),

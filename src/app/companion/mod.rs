@@ -36,8 +36,9 @@ use std::sync::Arc;
 /// Where the bodies of a world are.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// Number of the step, and simulated time [s].
+    /// Number of the step.
     pub tick: u64,
+    /// Simulated time [s].
     pub time: f64,
     /// Centres by body index [m].
     pub position: Vec<DVec2>,
@@ -73,8 +74,9 @@ pub enum Extent {
 pub struct Beginning {
     /// The simulation's world at that moment.
     pub world: World,
-    /// The scene that was opened, and what the window says of it.
+    /// The scene that was opened.
     pub start: Arc<Setup>,
+    /// What the window says of that scene.
     pub scene: Arc<SceneInfo>,
     /// Nothing but the method was changed since the scene was opened: what is known of its motion holds.
     pub untouched: bool,

@@ -59,6 +59,9 @@ pub(super) struct Reference {
     since: f64,
 }
 
+/// Bodies of a scene by accuracy of which it is watched without a truth how errors grow.
+const MOST_UNASKED: usize = 200;
+
 enum Source {
     Known(Trajectory),
     Computed(Box<Pair>),
@@ -150,7 +153,8 @@ impl Reference {
     pub fn step(&mut self, here: &Pose, goes_on: &dyn Fn() -> bool) -> Result<Option<Gap>, Lost> {
         self.steps += 1;
         (self.tick, self.time) = (here.tick, here.time);
-        if matches!(self.source, Source::Known(_) | Source::Computed(_)) {
+        let small = here.position.len() <= MOST_UNASKED && self.beginning.start.method.automatic;
+        if small || matches!(self.source, Source::Known(_) | Source::Computed(_)) {
             // It may cost as much as ten steps of every body.
             self.growth.step(&StepReport { bodies: here.position.len(), ..StepReport::default() });
         }

@@ -16,14 +16,30 @@ pub enum Standing {
     #[default]
     Waiting,
     /// The truth is known: stored with the scene, or a closed form. Its own error in parts of the scene's length.
-    Exact { error: f64 },
+    Exact {
+        /// How far the known motion may be from the true one, in parts of the length.
+        error: f64,
+    },
     /// Two runs of different fineness agree to this part of the scene's length.
-    Converged { to: f64 },
+    Converged {
+        /// How far the two runs are apart, in parts of the length.
+        to: f64,
+    },
     /// The two runs parted at this time [s]: from then on there is no reference. `chaotic` if both were carried to their
     /// accuracy until then, so that only neighbouring motions parting can be why; otherwise the runs may have been too coarse.
-    Parted { after: f64, chaotic: bool },
+    Parted {
+        /// Simulated time [s].
+        after: f64,
+        /// Both runs kept their accuracy until then.
+        chaotic: bool,
+    },
     /// What is known of the motion ended at this time [s], or was no longer that of the scene, and nobody asked to compute it.
-    Over { after: f64, touched: bool },
+    Over {
+        /// Simulated time [s].
+        after: f64,
+        /// The scene had been changed by then; otherwise no more of its motion is known.
+        touched: bool,
+    },
     /// A world that is only compared.
     Following,
     /// It ended, and why.
@@ -35,10 +51,13 @@ pub enum Standing {
 pub struct Report {
     /// Which beginning it belongs to: those of others are of the past.
     pub generation: u64,
-    /// Step and simulated time [s] that it has reached, and from when on it has followed.
+    /// Step that it has reached.
     pub tick: u64,
+    /// Simulated time that it has reached [s].
     pub time: f64,
+    /// Simulated time from when on it has followed [s].
     pub since: f64,
+    /// What it is worth at the moment, or why it ended.
     pub standing: Standing,
     /// By which distances are divided [m].
     pub length: f64,
@@ -46,9 +65,11 @@ pub struct Report {
     pub gap: Option<Gap>,
     /// Root mean square of the distance over all samples so far [m].
     pub so_far: f64,
+    /// Where and when the simulation was first visibly apart from it; `None` if it never was.
     pub parting: Option<Parting>,
     /// "4e5-fold", where the motion itself lets errors grow by so much.
     pub growth: Option<String>,
+    /// How far each body of the simulation is from where the companion has it.
     pub offsets: Arc<Offsets>,
     /// The rival's own picture; nobody else has one.
     pub frame: Option<Arc<Frame>>,

@@ -61,7 +61,8 @@ impl Rival {
         self.follower.step()?;
         let world = self.follower.world();
         self.measures = Measures::of(world);
-        self.plots.push(Sample::new(self.measures, self.follower.report()));
+        let automatic = self.follower.method().automatic;
+        self.plots.push(Sample::new(self.measures, self.follower.report(), automatic));
         self.trace.push(world);
         self.separation.compare(&world.bodies().id, here, &Pose::of(world), self.length, 0.0);
         Ok(self.separation.gap)

@@ -20,11 +20,24 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Kind {
     /// Distance of the ends = `length` [m].
-    Rod { length: f64 },
+    Rod {
+        /// Distance of the ends [m], 1e-9 … 1e9.
+        length: f64,
+    },
     /// Distance of the ends ≤ `length` [m].
-    Rope { length: f64 },
+    Rope {
+        /// Largest distance of the ends [m], 1e-9 … 1e9.
+        length: f64,
+    },
     /// Force k (distance − rest) + c d(distance)/dt, pulling: `rest` [m], `stiffness` k [N/m], `damping` c [N·s/m].
-    Spring { rest: f64, stiffness: f64, damping: f64 },
+    Spring {
+        /// Distance at which it does not pull [m], ≥ 0.
+        rest: f64,
+        /// Force over elongation k [N/m], ≥ 0.
+        stiffness: f64,
+        /// Force over the speed of elongation c [N·s/m], ≥ 0.
+        damping: f64,
+    },
     /// The ends coincide. Bodies may turn about it.
     Pin,
 }
@@ -88,8 +101,11 @@ impl Anchor {
 /// One constraint, whole: what a caller hands in and gets back.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Constraint {
+    /// What it asks for, and its numbers.
     pub kind: Kind,
+    /// First end.
     pub a: Anchor,
+    /// Second end; not the same body as the first, nor both fixed.
     pub b: Anchor,
 }
 
@@ -123,7 +139,9 @@ pub(crate) const WORLD: u32 = u32::MAX;
 /// All constraints, an array a property, in ascending order of id.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Constraints {
+    /// Ids, ascending.
     pub id: Vec<Id>,
+    /// What each of them asks for.
     pub kind: Vec<Kind>,
     /// Dense index of the first body, or `u32::MAX` for the world.
     pub a: Vec<u32>,
@@ -194,6 +212,7 @@ impl Constraints {
 /// body is led to the target as if nothing else acted on it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grip {
+    /// The body that is held.
     pub body: Id,
     /// Grabbed point in the body's axes, from its centre [m]; (0, 0) for a particle.
     pub local: DVec2,

@@ -10,6 +10,7 @@ use std::io::Write;
 pub struct JsonError {
     /// From 1.
     pub line: usize,
+    /// What is wrong with the line, and in which column.
     pub problem: String,
 }
 

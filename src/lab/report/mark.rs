@@ -6,12 +6,19 @@ use crate::lab::Family;
 /// The shape of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
+    /// A disc, or a ring if hollow.
     Circle,
+    /// Its sides lie along the axes.
     Square,
+    /// A square that stands on a corner.
     Diamond,
+    /// A triangle that points upwards.
     Up,
+    /// A triangle that points downwards.
     Down,
+    /// Two bars along the axes.
     Plus,
+    /// Two bars along the diagonals.
     Cross,
 }
 

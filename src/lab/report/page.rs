@@ -13,11 +13,13 @@ const TEMPLATE: &str = include_str!("accuracy.md");
 pub struct Machine {
     /// Kind of processor as the system names it.
     pub cpu: String,
+    /// Cores that the program may use, at least 1.
     pub cores: usize,
     /// "linux, x86_64"
     pub system: String,
     /// Of this program.
     pub version: String,
+    /// What the costs were timed with: [`CLOCK`] there.
     pub clock: String,
 }
 
@@ -43,6 +45,7 @@ pub struct ScenePoints {
     pub name: String,
     /// "Exact rope"
     pub title: String,
+    /// All that was measured on it, in the order of the file.
     pub points: Vec<Point>,
 }
 

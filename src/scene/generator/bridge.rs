@@ -12,13 +12,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bridge {
+    /// By which constraints refer to its nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Left end [m].
     pub from: DVec2,
     /// Right end [m].
     pub to: DVec2,
+    /// Number of links, 2 … 1e6.
     pub links: u32,
+    /// What joins one node to the next.
     pub link: Link,
     /// Whether the first node is fixed.
     pub pin_start: bool,
@@ -31,7 +34,9 @@ pub struct Bridge {
     /// Radius of a node [m]; if not given 0.6 of the distance between two, so that nothing falls through.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
+    /// Coefficient of friction of the nodes, ≥ 0.
     pub friction: f64,
+    /// Coefficient of restitution of the nodes, 0 … 1.
     pub restitution: f64,
 }
 

@@ -10,11 +10,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Cloth {
+    /// By which constraints refer to its nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Upper left node [m].
     pub corner: DVec2,
+    /// Nodes in a row, 1 … 1e6.
     pub columns: u32,
+    /// Nodes in a column, 1 … 1e6.
     pub rows: u32,
     /// Distance of neighbours [m].
     pub spacing: f64,
@@ -24,6 +27,7 @@ pub struct Cloth {
     pub damping: f64,
     /// Whether there are springs along both diagonals, which keep the cloth from shearing.
     pub diagonals: bool,
+    /// Which nodes are fixed.
     pub pins: Pins,
     /// Mass of a node [kg].
     pub mass: f64,

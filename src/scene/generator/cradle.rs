@@ -9,11 +9,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Cradle {
+    /// By which constraints refer to its balls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Middle of the beam from which the rods hang [m].
     pub centre: DVec2,
+    /// Number of balls, 1 … 1e6.
     pub balls: u32,
+    /// How many balls are lifted, 0 … `balls`.
     pub raised: u32,
     /// How far those are lifted, from the vertical [rad].
     pub angle: f64,
@@ -25,6 +28,7 @@ pub struct Cradle {
     pub radius: f64,
     /// Distance of the surfaces at rest [m].
     pub gap: f64,
+    /// Coefficient of restitution of the balls, 0 … 1; they have no friction.
     pub restitution: f64,
 }
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Which nodes of a grid are fixed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Pins {
+    /// All nodes are free: the grid falls.
     None,
     /// The two upper corners.
     #[default]

@@ -7,13 +7,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Link {
+    /// Keeps the distance, against pull and push.
     #[default]
     Rod,
     /// Resists pull only.
     Rope,
     /// [N/m] and [N·s/m].
     Spring {
+        /// Force over elongation [N/m].
         stiffness: f64,
+        /// Force over the speed of elongation [N·s/m].
         #[serde(default)]
         damping: f64,
     },

@@ -32,13 +32,21 @@ use std::collections::BTreeSet;
 /// A generator with its parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Generator {
+    /// Nodes on a straight line, each joined to the next.
     Rope(Rope),
+    /// A sagging deck between two fixed ends.
     Bridge(Bridge),
+    /// A grid of particles joined by springs.
     Cloth(Cloth),
+    /// A ring of particles and springs that keeps its shape.
     SoftBody(SoftBody),
+    /// A grid of particles joined by rods, ropes or springs.
     Net(Net),
+    /// Discs standing on each other.
     Stack(Stack),
+    /// Discs of random size strewn over a rectangle.
     Pile(Pile),
+    /// Newton's cradle: equal balls in a row, each hanging on a rod.
     Cradle(Cradle),
 }
 

@@ -10,21 +10,26 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Net {
+    /// By which constraints refer to its nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Upper left node [m].
     pub corner: DVec2,
+    /// Nodes in a row, 1 … 1e6.
     pub columns: u32,
+    /// Nodes in a column, 1 … 1e6.
     pub rows: u32,
     /// Distance of neighbours [m].
     pub spacing: f64,
     /// Distance between the two ends of a row [m], if the rows are to hang in circular arcs, at most half circles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chord: Option<f64>,
+    /// What joins a node to its neighbours.
     pub link: Link,
     /// Whether the diagonals of every mesh are joined too, at the length that they are built with.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub braced: bool,
+    /// Which nodes are fixed.
     pub pins: Pins,
     /// Mass of a node [kg].
     pub mass: f64,

@@ -12,8 +12,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Pile {
+    /// By which constraints refer to its discs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
+    /// Number of discs, 1 … 1e6; the rectangle must have a cell for each.
     pub count: u32,
     /// Lower left corner of the rectangle [m].
     pub min: DVec2,
@@ -27,7 +29,9 @@ pub struct Pile {
     pub seed: u64,
     /// Whether the discs turn.
     pub spin: bool,
+    /// Coefficient of friction of the discs, ≥ 0.
     pub friction: f64,
+    /// Coefficient of restitution of the discs, 0 … 1.
     pub restitution: f64,
 }
 

@@ -9,13 +9,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rope {
+    /// By which constraints refer to its nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// First node [m].
     pub from: DVec2,
     /// Last node [m].
     pub to: DVec2,
+    /// Number of links, 1 … 1e6.
     pub links: u32,
+    /// What joins one node to the next.
     pub link: Link,
     /// Mass of a node [kg].
     pub mass: f64,

@@ -20,6 +20,7 @@ pub enum Filling {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SoftBody {
+    /// By which constraints refer to its nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Middle [m].
@@ -28,7 +29,9 @@ pub struct SoftBody {
     pub velocity: DVec2,
     /// From the middle to the nodes [m].
     pub radius: f64,
+    /// Nodes on the circle, 6 … 1e6; the hub is not counted.
     pub nodes: u32,
+    /// What keeps the ring open.
     pub filling: Filling,
     /// Of the springs along the ring [N/m]; those across have a quarter of it.
     pub stiffness: f64,
@@ -39,6 +42,7 @@ pub struct SoftBody {
     /// Radius of a node [m]; if not given 0.6 of the distance between two, so that nothing gets in.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node_radius: Option<f64>,
+    /// Coefficient of friction of the nodes, ≥ 0.
     pub friction: f64,
 }
 

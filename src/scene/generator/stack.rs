@@ -10,10 +10,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Stack {
+    /// By which constraints refer to its discs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Where the lowest disc stands [m].
     pub base: DVec2,
+    /// Number of discs, 1 … 1e6.
     pub count: u32,
     /// Mass of a disc [kg].
     pub mass: f64,
@@ -21,7 +23,9 @@ pub struct Stack {
     pub radius: f64,
     /// Whether the discs turn.
     pub spin: bool,
+    /// Coefficient of friction of the discs, ≥ 0.
     pub friction: f64,
+    /// Coefficient of restitution of the discs, 0 … 1.
     pub restitution: f64,
 }
 

@@ -5,8 +5,11 @@ use std::f64::consts::FRAC_PI_2;
 /// The Jacobian elliptic functions sn, cn, dn of one argument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jacobi {
+    /// sin φ of the amplitude φ(u), −1 … 1.
     pub sn: f64,
+    /// cos φ, −1 … 1.
     pub cn: f64,
+    /// √(1 − k² sin² φ) = dφ/du, √(1 − k²) … 1.
     pub dn: f64,
 }
 

@@ -54,7 +54,9 @@ pub struct Encounter {
     pub positions: [DVec2; 2],
     /// [m/s²]
     pub gravity: DVec2,
+    /// Coefficient of restitution of the impact, 0 … 1.
     pub restitution: f64,
+    /// Coefficient of friction of the impact, ≥ 0.
     pub friction: f64,
 }
 

@@ -17,21 +17,29 @@ pub struct Hanging {
     pub compliances: Vec<f64>,
     /// Weight of each node between two links [N], one fewer than links, ≥ 0.
     pub weights: Vec<f64>,
-    /// Anchors [m]; gravity points down the y axis.
+    /// First anchor [m]; gravity points down the y axis.
     pub from: DVec2,
+    /// Second anchor [m].
     pub to: DVec2,
 }
 
 /// Why nothing is said about a chain.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoBalance {
+    /// Rigid links that do not reach from one anchor to the other.
     #[error("rigid links of {length} m in all between anchors that are {distance} m apart: lengthen them")]
-    TooShort { length: f64, distance: f64 },
+    TooShort {
+        /// Of all links together [m].
+        length: f64,
+        /// Of the anchors [m].
+        distance: f64,
+    },
     /// A link without pull has no direction.
     #[error(
         "a chain that hangs in a fold, or slack: its anchors are closer than a link is long, or nothing weighs on it"
     )]
     Folded,
+    /// The lists have wrong lengths, or numbers outside their ranges.
     #[error(
         "lengths, compliances and weights that do not belong together: n, n and n − 1 of them, finite, lengths above 0"
     )]

@@ -11,10 +11,12 @@ pub struct Matrix {
 }
 
 impl Matrix {
+    /// A matrix of zeros; either number may be 0.
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self { rows, columns, entries: vec![0.0; rows * columns] }
     }
 
+    /// Ones on the diagonal of `size × size`, zeros elsewhere.
     pub fn identity(size: usize) -> Self {
         Self::from_fn(size, size, |row, column| f64::from(row == column))
     }
@@ -25,10 +27,12 @@ impl Matrix {
         Self { rows, columns, entries }
     }
 
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
+    /// Number of columns.
     pub fn columns(&self) -> usize {
         self.columns
     }
@@ -38,10 +42,12 @@ impl Matrix {
         &self.entries
     }
 
+    /// The entries of a row, from left to right; panics if there is no such row.
     pub fn row(&self, row: usize) -> &[f64] {
         &self.entries[row * self.columns..][..self.columns]
     }
 
+    /// The entries of a row, to be changed; panics if there is no such row.
     pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
         &mut self.entries[row * self.columns..][..self.columns]
     }

@@ -6,6 +6,7 @@ use super::{DenseError, Matrix, Qr};
 /// Rank and null space of an m × n matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NullSpace {
+    /// Number of columns of the matrix that do not depend on others, 0 … min(m, n).
     pub rank: usize,
     /// n × (n − rank): its columns have length 1, stand at right angles to one another, and A times each of them is 0 up to
     /// rounding.

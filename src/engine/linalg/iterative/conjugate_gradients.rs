@@ -9,6 +9,7 @@ use super::watch::{Outcome, Run, Stop, Watch, Workspace, norm};
 /// A cheap approximate inverse with which every residual is multiplied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preconditioner {
+    /// The residual is taken as it is.
     None,
     /// 1 / aᵢᵢ: undoes rows of different scale, as from masses that differ. Rows without positive diagonal are left as they are.
     Diagonal,

@@ -35,7 +35,9 @@ pub enum Outcome {
 /// What came of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
+    /// Why it ended.
     pub outcome: Outcome,
+    /// Sweeps that were done, 0 if the first guess was good enough.
     pub sweeps: usize,
     /// ‖b − A x‖₂ at the end.
     pub residual: f64,

@@ -10,7 +10,10 @@ pub enum Path {
     #[default]
     Diagonal,
     /// Blocks of this many rows, each coupled with the next.
-    Chain { block: u8 },
+    Chain {
+        /// Rows of a block, ≥ 1.
+        block: u8,
+    },
     /// Elimination fills nothing in: trees, and cliques that hang together like one. Linear cost if the cliques are small.
     Tree,
     /// Everything else.
@@ -33,17 +36,22 @@ impl Path {
 /// Connected components by [`Path`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Components {
+    /// Components on [`Path::Diagonal`].
     pub diagonal: usize,
+    /// Components on [`Path::Chain`], of any block size.
     pub chains: usize,
+    /// Components on [`Path::Tree`].
     pub trees: usize,
+    /// Components on [`Path::Sparse`].
     pub sparse: usize,
 }
 
 /// Size and cost of a pattern.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
-    /// Order of the matrix, and its blocks.
+    /// Order of the matrix.
     pub rows: usize,
+    /// Its diagonal blocks: groups of rows that are eliminated together.
     pub blocks: usize,
     /// Entries of L below the diagonal.
     pub nonzeros: usize,
@@ -52,6 +60,7 @@ pub struct Summary {
     pub flops: usize,
     /// Of the most expensive component.
     pub path: Path,
+    /// How many components are solved in which way.
     pub components: Components,
 }
 
