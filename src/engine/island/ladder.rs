@@ -49,6 +49,10 @@ const FOURTH_ORDER: f64 = 5e-8;
 const FIFTH_ORDER: f64 = 1e-8;
 /// Radians of the fastest swing that a step of a series takes at most.
 const SERIES_SWING: f64 = 6.0;
+/// Energy that a method which damps may lose in a step, in parts of what there is times the accuracy: estimates of places do not see what
+/// small fast swings lose, and slow motion may live on that. Below the second accuracy rounding is all that shows.
+const ENERGY: f64 = 0.1;
+const FINEST_ENERGY: f64 = 1e-7;
 /// What a step may cost at most, in parts of the time that it simulates: a little more than real time, as work is only estimated.
 const DEAREST: f64 = 1.0;
 /// Times that this is halved where no method keeps the accuracy.
@@ -385,7 +389,16 @@ impl Ladder {
         time: f64,
         limit: Limit,
     ) -> Try {
-        let outcome = self.run(index, (plan, system), integrator, time, limit);
+        let damps = matches!(integrator, Integrator::RungeKutta4 | Integrator::Radau3 | Integrator::Radau5);
+        let accuracy = system.accuracy(plan);
+        let watched = damps && accuracy >= FINEST_ENERGY && system.is_conservative();
+        let before = watched.then(|| system.energy(time));
+        let mut outcome = self.run(index, (plan, system), integrator, time, limit);
+        if let Some(before) = before.filter(|_| outcome.kept && !outcome.failed) {
+            let after = system.energy(time);
+            let allowed = ENERGY * accuracy * (before.scale + after.scale);
+            outcome.kept = (after.total - before.total).abs() <= allowed;
+        }
         system.foresight.steps = outcome.next;
         let work = self.own[index].work.done(integrator, &outcome);
         let failed = outcome.failed || outcome.stiff;

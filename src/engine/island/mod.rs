@@ -5,6 +5,7 @@
 //! made for a plan and filled anew in every step.
 
 pub(crate) mod accelerations;
+mod energy;
 pub(crate) mod forces;
 pub(crate) mod forest;
 mod ladder;
