@@ -10,7 +10,8 @@
 //! - [`scene`]: the file format, its errors, its generators
 //! - [`truth`]: closed forms and a reference solver of its own, independent of the engine's
 //! - [`engine`]: the physics; knows no window, file or clock
-//! - [`file`]: files written whole, read within bounds; `stop`: requests of the system to end; [`text`]: text of strangers made fit to be shown
+//! - [`file`]: files written whole, read within bounds; [`text`]: text of strangers made fit to be shown; `stop`: requests of the
+//!   system to end
 
 #[cfg(feature = "desktop")]
 pub mod app;

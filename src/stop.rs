@@ -1,7 +1,8 @@
 //! Requests of the system to end: Ctrl-C, a terminal that closes, a session that ends.
 
-/// From now on `act` is called for each request, on a thread of its own. Requests that are ignored (the terminal's end under nohup) stay so.
-/// Where the system does not allow it, a request ends the program at once, as it does without this.
+/// From now on `act` is called for each request, on a thread of its own. Requests that are ignored (the terminal's
+/// end under nohup) stay so. Where the system does not allow it, a request ends the program at once, as it does
+/// without this.
 #[cfg(unix)]
 pub(crate) fn listen(mut act: impl FnMut() + Send + 'static) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

@@ -319,6 +319,17 @@ fn the_lab_measures_beside_the_simulation_and_is_stopped_resumed_and_written() {
         assert!(text.starts_with(line), "{text}");
         assert!(ending != "jsonl" || text.lines().count() == count);
     }
+    // A report of this session is written anew, another file is not replaced.
+    session.send(Command::Lab(LabOrder::Export(folder.path().join("lab.csv"))));
+    let diary = folder.path().join("diary.csv");
+    std::fs::write(&diary, "dear diary").expect("a file");
+    session.send(Command::Lab(LabOrder::Export(diary.clone())));
+    let frame = wait_for("the fault", || Some(session.frame()).filter(|frame| frame.fault.is_some()));
+    let fault = frame.fault.as_deref().expect("there is one");
+    assert!(fault.contains("diary.csv is there already"), "{fault}");
+    assert_eq!(std::fs::read_to_string(&diary).expect("the file"), "dear diary");
+    session.send(Command::DismissFault);
+    wait_for("no fault", || Some(session.frame()).filter(|frame| frame.fault.is_none()));
     session.send(Command::Lab(LabOrder::Export(folder.path().join("no/such/folder.csv"))));
     let frame = wait_for("the fault", || Some(session.frame()).filter(|frame| frame.fault.is_some()));
     assert!(frame.fault.as_deref().is_some_and(|fault| fault.contains("no such folder")), "{:?}", frame.fault);

@@ -21,7 +21,8 @@ pub struct Sample {
     pub step_us: f64,
     /// Estimate of the step's local error, in parts of an island's size; 0 where nothing estimates it.
     pub local_error: f64,
-    /// By accuracy: it was not kept everywhere, as [`StepReport::fell_short`] says. The status bar and the plot ask here; the panel says why.
+    /// By accuracy: it was not kept everywhere, as [`StepReport::fell_short`] says. The status bar and the plot ask
+    /// here; the panel says why.
     pub fell_short: bool,
 }
 

@@ -30,7 +30,8 @@ pub struct Arguments {
 
 /// What can be asked for.
 //
-// Variants with arguments have no documentation here: as the program's help it would take the place of the arguments' own.
+// Variants with arguments have no documentation here: as the program's help it would take the place of the arguments'
+// own.
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Opens the sandbox on a scene.

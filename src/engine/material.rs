@@ -12,8 +12,8 @@ pub struct Material {
 }
 
 impl Material {
-    /// What a contact of two surfaces takes: the larger restitution and the geometric mean of the frictions, unless the world is tuned to
-    /// one for all.
+    /// What a contact of two surfaces takes: the larger restitution and the geometric mean of the frictions, unless
+    /// the world is tuned to one for all.
     #[must_use]
     pub fn mixed(self, other: Material, tuning: &Tuning) -> Material {
         Material {

@@ -113,7 +113,8 @@ pub struct StepReport {
 }
 
 impl StepReport {
-    /// Whether a step by accuracy did not keep it everywhere: something went through the substeps, or was carried less accurately than asked.
+    /// Whether a step by accuracy did not keep it everywhere: something went through the substeps, or was carried
+    /// less accurately than asked.
     pub fn fell_short(&self) -> bool {
         self.substeps > 0 || self.lapsed > 0
     }

@@ -343,7 +343,8 @@ impl World {
         Ok(())
     }
 
-    /// Removes bodies with every constraint, contact and grip on them. Unknown ids are ignored. O((n + m) log m) for m of n things.
+    /// Removes bodies with every constraint, contact and grip on them. Unknown ids are ignored. O((n + m) log m) for
+    /// m of n things.
     pub fn remove_bodies(&mut self, ids: &[Id]) {
         let removed = sorted(ids);
         let is_removed = |id: &Id| removed.binary_search(id).is_ok();

@@ -59,7 +59,8 @@ pub(super) struct Reference {
     since: f64,
 }
 
-/// Bodies of a scene by accuracy of which it is watched without a truth how errors grow.
+/// Bodies of a scene by accuracy of which it is watched without a truth how errors grow: it may cost ten times the
+/// run, and nobody asked.
 const MOST_UNASKED: usize = 200;
 
 enum Source {

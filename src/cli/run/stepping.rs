@@ -50,7 +50,7 @@ pub(super) struct Lapses {
 impl Lapses {
     fn add(&mut self, report: &StepReport) {
         if report.substeps == 0 {
-            self.short += u64::from(report.fell_short());
+            self.short += u64::from(report.lapsed > 0);
             return;
         }
         self.steps += 1;

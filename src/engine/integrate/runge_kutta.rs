@@ -14,8 +14,9 @@ use crate::engine::island::System;
 /// Largest turn of a rod and largest h ω in a step.
 pub(crate) const TURN: f64 = 1.0;
 pub(crate) const SWING: f64 = 2.0;
-/// Cosine of the largest turn of a spring in all the time for an accuracy: where one flies past its anchor the force changes within a step,
-/// and no stage may see it. A damped spring of no length was 130 times as wrong as asked at 1e-6 without this.
+/// Cosine of the largest turn of a spring in all the time for an accuracy: where one flies past its anchor the force
+/// changes within a step, and no stage may see it. A damped spring of no length was 130 times as wrong as asked at
+/// 1e-6 without this.
 const SPRING_TURN: f64 = 0.9;
 /// Most steps for an accuracy. What takes more is stiff, or asks for a higher order.
 const MOST_WITHIN: f64 = 64.0;

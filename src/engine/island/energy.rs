@@ -2,7 +2,8 @@
 
 use super::System;
 
-/// Falls of so many times the step count as motion that is to come: energy is measured by more than what moves at the instant.
+/// Falls of so many times the step count as motion that is to come: energy is measured by more than what moves at the
+/// instant.
 const FALL: f64 = 10.0;
 
 /// Energy, and what a change of it is measured by [J].
@@ -13,7 +14,8 @@ pub(super) struct Energy {
 }
 
 impl System {
-    /// Whether energy is conserved: no drag, damper, hold, body that is led, or rope, which takes some when it tightens.
+    /// Whether energy is conserved: no drag, damper, hold, body that is led, or rope, which takes some when it
+    /// tightens.
     pub(super) fn is_conservative(&self) -> bool {
         let nodes = &self.nodes;
         let led = |i: &u32| nodes.vx[*i as usize] != 0.0 || nodes.vy[*i as usize] != 0.0;

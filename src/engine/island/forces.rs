@@ -153,13 +153,14 @@ impl Springs {
         largest.value().sqrt()
     }
 
-    /// Whether a spring whose force depends on where it points points backwards, seen from when the nodes stood at `x` and `y`.
+    /// Whether a spring whose force depends on where it points points backwards, seen from when the nodes stood at
+    /// `x` and `y`.
     pub fn turn_over(&self, nodes: &Nodes, x: &[f64], y: &[f64]) -> bool {
         self.turn_beyond(nodes, x, y, 0.0)
     }
 
-    /// The same where it has turned by more than an angle with this `cosine` ≥ 0. With neither rest length nor damper the force is as smooth
-    /// near zero length as elsewhere.
+    /// The same where it has turned by more than an angle with this `cosine` ≥ 0. With neither rest length nor damper
+    /// the force is as smooth near zero length as elsewhere.
     pub fn turn_beyond(&self, nodes: &Nodes, x: &[f64], y: &[f64], cosine: f64) -> bool {
         let [mut dx, mut dy, mut ex, mut ey] = [[0.0; SIDE]; 4];
         self.pairs.blocks::<SIDE>().any(|block| {

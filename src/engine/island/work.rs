@@ -100,7 +100,7 @@ impl Work {
 }
 
 /// Newton iterations of a step, as a rule.
-pub(crate) fn usual_solves(integrator: Integrator) -> f64 {
+fn usual_solves(integrator: Integrator) -> f64 {
     match integrator {
         Integrator::EnergyMomentum => 2.0,
         Integrator::Radau3 | Integrator::Radau5 => 3.0,

@@ -76,8 +76,8 @@ impl Plan {
         self.contacts && world.bodies.is_solid(body as usize)
     }
 
-    /// Whether an island moves smoothly as long as nothing touches it. Free bodies that can touch are a pile, a stack or balls in
-    /// a box: contacts are what their scene is about.
+    /// Whether an island moves smoothly as long as nothing touches it. Free bodies that can touch are a pile, a stack
+    /// or balls in a box: contacts are what their scene is about.
     fn smooth(&self, world: &World, group: &Group) -> bool {
         !group.constraints.is_empty() || !group.bodies.iter().any(|body| self.touches(world, *body))
     }
@@ -134,7 +134,8 @@ impl Plan {
         self.dashpots = self.springs.iter().any(|joint| joint.form.damping > 0.0);
     }
 
-    /// Factor by which an anchor of a disc is easier to move than its centre: 1 + m |at|²/I, and at least that of an anchor at the rim.
+    /// Factor by which an anchor of a disc is easier to move than its centre: 1 + m |at|²/I, and at least that of an
+    /// anchor at the rim.
     fn leverage(&self, world: &World, body: usize, at: DVec2) -> f64 {
         let inertia = if body < world.bodies.len() { world.bodies.inertia(body) } else { None };
         inertia.map_or(1.0, |inertia| {
@@ -169,8 +170,9 @@ impl Plan {
 }
 
 impl IslandPlan {
-    /// How an island is carried. By hand: ropes that tighten and slacken need events, which series and Radau's methods have; where anchors
-    /// turn, series and RATTLE take them. What Nyström's methods do not take goes by series too.
+    /// How an island is carried. By hand: ropes that tighten and slacken need events, which series and Radau's
+    /// methods have; where anchors turn, series and RATTLE take them. What Nyström's methods do not take goes by
+    /// series too.
     fn of(world: &World, method: &Method, group: Group, turning: usize) -> IslandPlan {
         let kinds = || group.constraints.iter().map(|i| &world.constraints.kind[*i as usize]);
         let ropes = kinds().any(|kind| matches!(kind, Kind::Rope { .. }));

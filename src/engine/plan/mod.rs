@@ -1,5 +1,6 @@
-//! What a world needs from a step: which stages, which springs are forces and which are rows, what carries which island.
-//! Derived from the world and the method, rebuilt only when one of them changed. Data: its words are in `sentence.rs`.
+//! What a world needs from a step: which stages, which springs are forces and which are rows, what carries which
+//! island. Derived from the world and the method, rebuilt only when one of them changed. Data: its words are in
+//! `sentence.rs`.
 
 mod derive;
 mod sentence;

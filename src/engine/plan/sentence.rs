@@ -89,7 +89,8 @@ impl Plan {
         }
     }
 
-    /// What was decided and why for the world and the method that it was derived from, in one sentence for the user. O(constraints).
+    /// What was decided and why for the world and the method that it was derived from, in one sentence for the user.
+    /// O(constraints).
     pub fn sentence(&self, world: &World, method: &Method) -> String {
         let mut parts = Vec::new();
         let counts = [

@@ -71,8 +71,9 @@ enum Solver {
 }
 
 impl EnergyMomentum {
-    /// Carries the island through `time` [s] in equal steps, some of them cut where they fail, in about `most` Newton iterations; fails
-    /// where they do not do. No more than `dearest` steps are tried for an accuracy. For one island only: the first call takes its topology.
+    /// Carries the island through `time` [s] in equal steps, some of them cut where they fail, in about `most` Newton
+    /// iterations; fails where they do not do. No more than `dearest` steps are tried for an accuracy. For one island
+    /// only: the first call takes its topology.
     pub fn advance(&mut self, system: &mut System, time: f64, pace: Pace, (most, dearest): (f64, f64)) -> Outcome {
         (self.solves, self.most) = (0, most.max(FEWEST));
         if matches!(self.solver, Solver::None) {
